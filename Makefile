@@ -548,6 +548,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BU
 	@$(LINK) -o $@ $(filter-out %.a,$^) $(filter %.a,$^) -lcmocka $(TEST_LIBRARIES) -lm
 
 $(BUILD)/tests/test_drawing: $(IMPORT_OBJECTS)
+$(BUILD)/tests/test_fold: $(IMPORT_OBJECTS) $(BUILD)/samples/creases.c.o
 
 $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz

@@ -1,4 +1,5 @@
 /* Folds: lines along which a sheet turns as a hinge. */
+#include "../samples/creases.h"
 #include "host.h"
 
 #include "layout_hash.h"
@@ -64,8 +65,8 @@ static void CheckLips(const Host* host, kiriSheet sheet)
     assert_true(pairs > 0);
 }
 
-/* Half of a sheet hangs on the hinge between it and the other half, which is held: k theta = w b^2 / 2 cos theta. Returns
-   the relative error of the angle. */
+/* Half of a sheet hangs on the hinge between it and the other half, which is held: k theta = w b^2 / 2 cos theta.
+   Returns the relative error of the angle. */
 static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t columns)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, (float)k, 0.0f, 0.0f };
@@ -207,8 +208,8 @@ static void FoldsGoToTheirRestAngle(void** state)
     Host_Stop(&host);
 }
 
-/* Bent by a right angle and let go, a fold with a yield moment springs back by that moment over its stiffness; one without
-   springs back to its rest angle. */
+/* Bent by a right angle and let go, a fold with a yield moment springs back by that moment over its stiffness; one
+   without springs back to its rest angle. */
 static double LetGo(float yieldMoment)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 0.0f, yieldMoment };
@@ -310,7 +311,8 @@ static void Miura_Add(Miura* m, const double from[2], const double to[2], bool i
 {
     m->isZig[m->count] = isZig;
     m->sign[m->count] = sign;
-    m->folds[m->count++] = (kiriFold){ { (float)from[0], (float)from[1] }, { (float)to[0], (float)to[1] }, 0.0f, 0.0f, 0.0f };
+    kiriFold* fold = &m->folds[m->count++];
+    *fold = (kiriFold){ { (float)from[0], (float)from[1] }, { (float)to[0], (float)to[1] }, 0.0f, 0.0f, 0.0f };
 }
 
 static void Miura_Make(Miura* m, int columns, int rows, double width, double height, double acute)
@@ -327,14 +329,15 @@ static void Miura_Make(Miura* m, int columns, int rows, double width, double hei
     for (int j = 1; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             double off = (j % 2) * shift - 0.5 * shift;
-            const double from[2] = { i > 0 ? i * a + off : 0.0, j * b }, to[2] = { i + 1 < columns ? (i + 1) * a + off : width, j * b };
+            const double from[2] = { i > 0 ? i * a + off : 0.0, j * b };
+            const double to[2] = { i + 1 < columns ? (i + 1) * a + off : width, j * b };
             Miura_Add(m, from, to, false, (i % 2 == 0 ? 1.0 : -1.0) * (j % 2 == 0 ? -1.0 : 1.0));
         }
     }
 }
 
-/* Zigzags are driven by their rest angles, lines are free. Returns the largest error of an angle, in degrees, of a sheet of
-   rigid facets. */
+/* Zigzags are driven by their rest angles, lines are free. Returns the largest error of an angle against rigid facets,
+   degrees. */
 static double FoldMiura(int columns, int rows, double acute, int32_t frames, int32_t grid)
 {
     const float none[3] = { 0.0f, 0.0f, 0.0f };
@@ -379,6 +382,53 @@ static void VerticesFollowRigidFacets(void** state)
     assert_true(FoldMiura(2, 2, 60.0 * Degree, 4, 32) < 0.3);
     assert_true(FoldMiura(2, 2, 70.0 * Degree, 12, 40) < 0.3);
     assert_true(FoldMiura(3, 3, 60.0 * Degree, 9, 48) < 0.3);
+}
+
+/* A waterbomb base from a FOLD file folds from flat to a flat triangle. */
+static void WaterbombFolds(void** state)
+{
+    static const char file[] =
+        "{\"file_spec\":1.1,\"frame_classes\":[\"creasePattern\"],\"frame_unit\":\"mm\","
+        "\"vertices_coords\":[[0,0],[100,0],[100,50],[100,100],[0,100],[0,50],[50,50]],"
+        "\"edges_vertices\":[[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[6,0],[6,1],[6,3],[6,4],[6,2],[6,5]],"
+        "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"V\",\"V\",\"V\",\"V\",\"M\",\"M\"]}";
+    enum { MOST = 16, TICKS = 300 };
+    const float none[3] = { 0.0f, 0.0f, 0.0f }, stiffness = 0.01f, pi = 3.14159265f;
+    kiriFold folds[MOST];
+    float ways[MOST];
+    Import drawing = { 0 };
+    Host host;
+    (void)state;
+    Host_Start(&host);
+    host.every = 50;
+    OK(kiriWorld_SetGravity(host.world, none));
+    assert_true(Import_Read(&drawing, file, (int64_t)strlen(file), 0.01) && Import_Join(&drawing, 0.01));
+    int32_t count = Creases_Make(&drawing, 0.001f, stiffness, folds, ways, MOST);
+    Import_Free(&drawing);
+    assert_in_range(count, 3, 6); /* lines that go straight through the middle are one */
+    kiriSheetDef def = StiffDef();
+    def.frameCount = 12;
+    def.material.airDamping = 10.0f;
+    kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.1f, 20, 20, folds, count);
+    for (int t = 1; t <= TICKS + 100; ++t) {
+        float angle = t < TICKS ? pi * (float)t / TICKS : pi;
+        for (int32_t i = 0; i < count; ++i) {
+            OK(kiriSheet_SetFold(host.world, sheet, i, stiffness, ways[i] * angle));
+        }
+        OK(Host_Tick(&host, Dt, 2));
+    }
+    kiriPieceState piece;
+    OK(kiriSheet_GetPiece(host.world, sheet, 0, &piece));
+    double size[3], most = 0.0, least = 1.0, all = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        size[a] = (double)piece.upper[a] - (double)piece.lower[a];
+        most = fmax(most, size[a]);
+        least = fmin(least, size[a]);
+        all += size[a];
+    }
+    print_message("folded to %.4f x %.4f x %.1g m\n", most, all - most - least, least);
+    assert_true(fabs(most - 0.1) < 1e-4 && fabs(all - most - least - 0.05) < 1e-4 && least < 1e-4);
+    Host_Stop(&host);
 }
 
 /* ---- Random sheets ---- */
@@ -513,6 +563,7 @@ int main(void)
         cmocka_unit_test(FoldsKeepAnAngle),
         cmocka_unit_test(FoldsAreAddedLater),
         cmocka_unit_test(VerticesFollowRigidFacets),
+        cmocka_unit_test(WaterbombFolds),
         cmocka_unit_test(IncrementalEqualsFromScratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

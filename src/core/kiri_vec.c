@@ -13,7 +13,8 @@ double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
 
 double kiriAngle(double sine, double cosine)
 {
-    double length = sqrt(sine * sine + cosine * cosine), t = length > 0.0 ? sine / (length + fabs(cosine)) : 0.0, sum = 0.0;
+    double length = sqrt(sine * sine + cosine * cosine), sum = 0.0;
+    double t = length > 0.0 ? sine / (length + fabs(cosine)) : 0.0;
     for (int k = 0; k < 2; ++k) { /* t is the tangent of half the angle, then of a quarter and of an eighth */
         t /= 1.0 + sqrt(1.0 + t * t);
     }

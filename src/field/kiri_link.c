@@ -52,7 +52,8 @@ static int32_t FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int3
 {
     int32_t low;
     KIRI_ASSERT(i >= 0 && i < j);
-    KIRI_SEARCH(low, 0, count, links[middle].fold == 0 && (links[middle].i < i || (links[middle].i == i && links[middle].j < j)));
+    const kiriLink wanted = { .i = i, .j = j };
+    KIRI_SEARCH(low, 0, count, kiriLink_IsBefore(&links[middle], &wanted));
     return low;
 }
 
@@ -1395,7 +1396,8 @@ static bool MakeCorners(const LinkUpdate* u)
 /* ---- Folds ------------------------------------------------------------------------------------------------------- */
 
 /* Clips the part of the segment from a to b, as shares, to a square. */
-static bool ClipToSquare(const kiriMeshData* mesh, int32_t square, kiriLatticePoint a, kiriLatticePoint b, double share[2])
+static bool ClipToSquare(const kiriMeshData* mesh, int32_t square, kiriLatticePoint a, kiriLatticePoint b,
+                         double share[2])
 {
     kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square);
     const double from[2] = { (double)a.x - low.x, (double)a.y - low.y };

@@ -109,8 +109,8 @@ typedef struct SightRay {
     double least;         /* m: anything as near to the way, or to its ends, only touches */
     kiriSightHit nearest; /* share above 1: none */
     kiriVec2 head;        /* head of the nearest edge */
-    kiriSightHit entry;   /* where it first comes into material; share above 1: nowhere. Only a ray from a site that a cut
-                             has parted from its material begins outside */
+    kiriSightHit entry;   /* where it first comes into material, see nearest. Only the ray of a site that a cut has
+                             parted from its material begins outside */
 } SightRay;
 
 /* Returns the side of the way on which a point is: 1 left, -1 right, 0 on it. */

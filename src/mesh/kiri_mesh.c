@@ -67,7 +67,8 @@ bool kiriFoldLine_Has(const kiriFoldLine* fold, kiriLatticePoint a, kiriLatticeP
     const kiriVec2 from = { fold->from.x, fold->from.y }, to = { fold->to.x, fold->to.y };
     KIRI_ASSERT(fold->reach >= 0.0);
     const kiriVec2 first = { a.x, a.y }, last = { b.x, b.y };
-    return kiriVec2_DistanceToWay(first, from, to) <= fold->reach && kiriVec2_DistanceToWay(last, from, to) <= fold->reach;
+    return kiriVec2_DistanceToWay(first, from, to) <= fold->reach &&
+           kiriVec2_DistanceToWay(last, from, to) <= fold->reach;
 }
 
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)

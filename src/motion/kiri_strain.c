@@ -418,8 +418,8 @@ static double PlateStiffness(const kiriMaterial* material)
     return (double)material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
 }
 
-/* Measures the part along a vector that frame i carries, of a vector that j carries, or of the gap at a point: `from` are
-   the arms of the gap, or null. */
+/* Measures the part along a vector that frame i carries, of a vector that j carries, or of the gap at a point: `from`
+   has the arms of the gap, or is null. */
 static double MeasureAlong(kiriVec3 axis, kiriVec3 vector, const EndVectors* from, kiriStrainRow* row)
 {
     if (row != NULL) {
@@ -565,14 +565,15 @@ double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
 /* Part of the turn of a fold that the material makes at which a fold is half a hinge, half a plate. */
 #define HALF_HINGE 0.05
 
-/* Sets the stiffness of a fold. Along its line the material neither stretches nor curls. The hinge and the material up to
-   the two sites turn in series. At a soft hinge both sides are as stiff as they are in their plane, or they would come
-   apart visibly; the regions beyond bend and twist. A stiff one bends and twists as a plate. */
+/* Sets the stiffness of a fold. Along its line the material neither stretches nor curls. The hinge and the material up
+   to the two sites turn in series. At a soft hinge both sides are as stiff as in their plane, or they would come apart
+   visibly; the regions beyond bend and twist. A stiff hinge bends and twists as a plate. */
 static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
 {
     double nu = (double)material->poissonsRatio, W = link->width, l = link->length;
     double membrane = (double)material->youngsModulus * material->thickness / l, bending = PlateStiffness(material) / l;
-    double share = link->hinge / (bending + link->hinge), loose = 1.0 / (1.0 + share * share / (HALF_HINGE * HALF_HINGE));
+    double share = link->hinge / (bending + link->hinge);
+    double loose = 1.0 / (1.0 + share * share / (HALF_HINGE * HALF_HINGE));
     stiffness[KIRI_STRETCH] = membrane * W;
     stiffness[KIRI_SHEAR] = membrane * W / (1.0 + nu);
     stiffness[KIRI_PLANE_BENDING] = membrane * kiriMax(link->moment, W * W * W / 12.0);
@@ -889,7 +890,8 @@ double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material
     double slope;
     if (link->fold != 0) {
         double perAngle = 2.0 * (double)material->yieldStress / ((double)material->youngsModulus * material->thickness);
-        double limit = link->yield > 0.0 && stiffness->bending > 0.0 ? link->yield * link->width / (1.5 * stiffness->bending) : 0.0;
+        bool yields = link->yield > 0.0 && stiffness->bending > 0.0;
+        double limit = yields ? link->yield * link->width / (1.5 * stiffness->bending) : 0.0;
         *stiffness = (kiriBentStrain){ limit > 0.0 ? stiffness->bending : 0.0, 0.0, 0.0 };
         return limit / perAngle;
     }

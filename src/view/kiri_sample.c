@@ -392,7 +392,8 @@ static bool AddToMean(kiriStencil* mean, kiriMemory* memory, int32_t frame, doub
 
 /* Finds the weights of a sample. The vertices of a fold at one point have the mean of their weights: so they have one
    position, and a blend of both sides is nowhere else. */
-static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
+static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square,
+                                      int32_t sample)
 {
     kiriStencil* mean = &refresh->mean;
     refresh->joined.count = 0;

@@ -121,7 +121,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(POINTS, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)))                                  \
     P(FRAMES, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING))                                            \
     P(CONTACTS, ARRAY_ARGUMENT(contactItem, COUNTING))                                                                 \
-    P(FOLDS, ARRAY_ARGUMENT(foldItem, WITHIN(1, KIRI_MOST_FOLDS)))                                                               \
+    P(FOLDS, ARRAY_ARGUMENT(foldItem, WITHIN(1, KIRI_MOST_FOLDS)))                                                     \
     N(NEW_ID, FORM(KIRI_FORM_NEW)) /* results, at most one a call */                                                   \
     N(NEW_COUNT, FORM(KIRI_FORM_NEW))                                                                                  \
     N(NEW_IDS, FORM(KIRI_FORM_NEWS)) /* as many as the COUNT just before it */
