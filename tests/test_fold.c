@@ -179,6 +179,58 @@ static void CutsGoThroughFolds(void** state)
     Host_Stop(&host);
 }
 
+/* Blades in world space go through folds. */
+static void BladesGoThroughFolds(void** state)
+{
+    const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 1.2f, 0.0f };
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    const float quad[12] = { -1, 0.026f, -1, 2, 0.026f, -1, 2, 0.026f, 1, -1, 0.026f, 1 };
+    kiriSheetDef def = StiffDef();
+    kiriCut cut;
+    kiriBlade blade;
+    Host host;
+    (void)state;
+    Host_Start(&host);
+    OK(kiriWorld_SetGravity(host.world, none));
+    def.material.airDamping = 20.0f;
+    kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
+    Host_Ticks(&host, 100, Dt, 2);
+    OK(kiriSheet_Slice(host.world, sheet, quad, &cut));
+    Host_Ticks(&host, 2, Dt, 2);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    OK(kiriBeginBlade(host.world, sheet, &blade));
+    for (int t = 0; t <= 20; ++t) {
+        const float from[3] = { -0.05f + 0.01f * (float)t, 0.04f, -1.0f }, to[3] = { from[0], 0.04f, 1.0f };
+        OK(kiriBlade_MoveEdge(host.world, blade, from, to));
+        OK(Host_Tick(&host, Dt, 2));
+    }
+    OK(kiriBlade_End(host.world, blade));
+    Host_Ticks(&host, 2, Dt, 2);
+    assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
+    Host_Stop(&host);
+}
+
+/* Cloth with a detail layer: both sides of the drawn mesh stay together. */
+static void ClothFolds(void** state)
+{
+    const kiriFold fold = { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 1e-4f, 2.0f, 0.0f };
+    kiriSheetDef def;
+    kiriPin pin;
+    Host host;
+    (void)state;
+    Host_Start(&host);
+    host.every = 20;
+    kiriDefaultSheetDef(&def);
+    def.frameCount = 16;
+    kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 20, 20, &fold, 1);
+    OK(kiriSheet_ClampLine(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 1.0f }, &pin));
+    for (int t = 0; t < 40; ++t) {
+        OK(Host_Tick(&host, Dt, 2));
+        CheckLips(&host, sheet);
+    }
+    Host_Stop(&host);
+}
+
 /* A fold goes to its rest angle, also beyond a right angle and in the air, and turns nothing as a whole. */
 static void FoldsGoToTheirRestAngle(void** state)
 {
@@ -559,6 +611,8 @@ int main(void)
         cmocka_unit_test(HalfASheetHangsOnItsHinge),
         cmocka_unit_test(SeenSurfaceIsTwoPlanes),
         cmocka_unit_test(CutsGoThroughFolds),
+        cmocka_unit_test(BladesGoThroughFolds),
+        cmocka_unit_test(ClothFolds),
         cmocka_unit_test(FoldsGoToTheirRestAngle),
         cmocka_unit_test(FoldsKeepAnAngle),
         cmocka_unit_test(FoldsAreAddedLater),

@@ -87,6 +87,7 @@ KIRI_TABLE(LinkWorkTable, kiriLinkWork, {
     KIRI_DERIVED,
     KIRI_ARRAYS(marks, stale, faces, to, made, ends, nextEnds),
     KIRI_ROOMS(order, stretch, parts),
+    KIRI_RUN(4, foldCount),
     KIRI_PART(edges, SightEdgesTable),
 })
 

@@ -1228,6 +1228,25 @@ static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnd
     KIRI_NEXT(u->work->nextEnds) = *ends;
 }
 
+/* Sorts this number of items: writes their indices to `order`. */
+static bool SortItems(const LinkUpdate* u, int32_t count, kiriBeforeFn* before, const void* context)
+{
+    if (!kiriArray_Resize(u->memory, &u->work->order, count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        u->work->order.data[k] = k;
+    }
+    kiriSort(u->work->order.data, count, before, context);
+    return true;
+}
+
+static bool ReserveNext(const LinkUpdate* u, int64_t most)
+{
+    return kiriArray_Reserve(u->memory, &u->links->next, most) &&
+           kiriArray_Reserve(u->memory, &u->work->nextEnds, most) && kiriArray_Reserve(u->memory, &u->links->was, most);
+}
+
 /* Sorts the links that were made by their keys, and merges them with the kept ones; no pair of regions has both. Counts
    the made ones that differ from the old link with the same key. */
 static bool MergeLinks(const LinkUpdate* u)
@@ -1236,15 +1255,9 @@ static bool MergeLinks(const LinkUpdate* u)
     kiriLinkWork* work = u->work;
     int32_t old = 0;
     int64_t most = (int64_t)links->links.count + work->made.count;
-    if (!kiriArray_Resize(u->memory, &work->order, work->made.count) ||
-        !kiriArray_Reserve(u->memory, &links->next, most) || !kiriArray_Reserve(u->memory, &work->nextEnds, most) ||
-        !kiriArray_Reserve(u->memory, &links->was, most)) {
+    if (!ReserveNext(u, most) || !SortItems(u, work->made.count, IsMadeBefore, u)) {
         return false;
     }
-    KIRI_EACH_INDEX(k, work->order) {
-        work->order.data[k] = k;
-    }
-    kiriSort(work->order.data, work->order.count, IsMadeBefore, u);
     links->next.count = work->nextEnds.count = links->was.count = links->changed = 0;
     for (int32_t k = 0; k <= work->order.count; ++k) {
         const kiriNewLink* made = k < work->order.count ? &work->made.data[work->order.data[k]] : NULL;
@@ -1513,6 +1526,7 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
     while (kiriStrips_Next(&strips)) {
         KIRI_EACH_INDEX(i, strips) {
             int32_t square = strips.square + i * strips.stride;
+            work->due += 1;
             KIRI_EACH_NODE(node, &mesh->squares, square) {
                 KIRI_EACH_CORNER(k) {
                     int32_t h = 3 * mesh->squares.nodes.data[node].triangle + k;
@@ -1524,13 +1538,9 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
         }
     }
     work->due += work->parts.count;
-    if (!kiriArray_Resize(u->memory, &work->order, work->parts.count)) {
+    if (!SortItems(u, work->parts.count, IsPartBefore, work->parts.data)) {
         return false;
     }
-    KIRI_EACH_INDEX(k, work->order) {
-        work->order.data[k] = k;
-    }
-    kiriSort(work->order.data, work->order.count, IsPartBefore, work->parts.data);
     for (int32_t first = 0, end; first < work->order.count; first = end) {
         const int32_t* region = work->parts.data[work->order.data[first]].region;
         for (end = first; end < work->order.count; ++end) {
@@ -1553,28 +1563,17 @@ static bool IsFoldBefore(const void* context, int32_t a, int32_t b)
     return isOfPair ? a < b : kiriLink_IsBefore(&x->link, &y->link);
 }
 
-/* Makes the links of all folds, after the others. */
-static bool MakeFoldLinks(const LinkUpdate* u)
+/* Appends the links of folds to the others. */
+static bool AppendFoldLinks(const LinkUpdate* u)
 {
     kiriLinks* links = u->links;
     kiriLinkWork* work = u->work;
     int32_t old = 0;
-    bool ok = true;
     KIRI_ASSERT(links->next.count == work->nextEnds.count && links->next.count == links->was.count);
-    work->made.count = 0;
-    for (int32_t f = 0; ok && f < u->mesh->folds.count; ++f) {
-        ok = u->mesh->folds.data[f].isMade == 0 || MakeLinksOfFold(u, f);
-    }
     int64_t most = (int64_t)links->next.count + work->made.count;
-    if (!ok || !kiriArray_Resize(u->memory, &work->order, work->made.count) ||
-        !kiriArray_Reserve(u->memory, &links->next, most) || !kiriArray_Reserve(u->memory, &work->nextEnds, most) ||
-        !kiriArray_Reserve(u->memory, &links->was, most)) {
+    if (!ReserveNext(u, most) || !SortItems(u, work->made.count, IsFoldBefore, work->made.data)) {
         return false;
     }
-    KIRI_EACH_INDEX(k, work->order) {
-        work->order.data[k] = k;
-    }
-    kiriSort(work->order.data, work->order.count, IsFoldBefore, work->made.data);
     KIRI_EACH_INDEX(k, work->order) {
         const kiriNewLink* made = &work->made.data[work->order.data[k]];
         while (old < links->links.count && kiriLink_IsBefore(&links->links.data[old], &made->link)) {
@@ -1596,6 +1595,7 @@ static bool BeginLinks(const LinkUpdate* u)
     u->links->next.count = work->nextEnds.count = u->links->changed = 0;
     work->faces.count = work->made.count = work->at = 0;
     work->due = 0;
+    work->foldCount = u->mesh->folds.count;
     if (!kiriSightEdges_Start(&work->edges, u->mesh) || !kiriArray_Resize(u->memory, &work->stale, u->siteCount) ||
         !kiriArray_Resize(u->memory, &work->marks, kiriMax(marks, faces))) {
         return false;
@@ -1708,6 +1708,7 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
     bool ok = true;
     while (ok && !kiriMemory_MustPause(u->memory) && kiriQuota_Pay(quota, &work->due)) {
         int32_t at = work->at++, face = at - u->siteCount - 1, seen = work->edges.edges.count;
+        int32_t fold = face - work->faces.count - 1;
         if (at < u->siteCount) {
             ok = !u->regions->dirty.data[at] || ListFaces(u, at);
         } else if (face < 0) {
@@ -1716,9 +1717,13 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
             ok = MakeLinksAt(u, work->faces.data[face]);
         } else if (face == work->faces.count) {
             int32_t made = work->made.count;
-            ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u) &&
-                 MakeFoldLinks(u);
+            ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u);
             work->due += 2 * (int64_t)u->links->next.count;
+            work->made.count = 0;
+        } else if (fold < work->foldCount) {
+            ok = u->mesh->folds.data[fold].isMade == 0 || MakeLinksOfFold(u, fold);
+        } else if (fold == work->foldCount) {
+            ok = AppendFoldLinks(u);
         } else {
             return KIRI_DONE;
         }

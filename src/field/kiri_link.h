@@ -149,6 +149,7 @@ typedef struct kiriLinkWork {
     kiriIndices order;                  /* scratch: faces of a stretch, or `made` by key */
     KIRI_ARRAY(kiriBorderFace) stretch; /* scratch: faces of the link that is being made, in order */
     KIRI_ARRAY(kiriFoldPart) parts;     /* scratch: of a fold */
+    int32_t foldCount;                  /* folds when the update began */
 } kiriLinkWork;
 
 typedef struct kiriLinks {

@@ -657,7 +657,7 @@ bool kiriSewn_IsNear(const kiriSheetData* sheet, kiriSeam seam, kiriVec2 at, dou
 
 #define SEWN 0.3 /* of an edge: a vertex as near to a seam is on the lip */
 
-/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex, or if it is on a seam. */
+/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex, or if it is on a seam or fold. */
 static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
 {
     const kiriMeshData* mesh = &sheet->mesh;
@@ -670,6 +670,10 @@ static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
     }
     KIRI_EACH_WHILE(!isPinned, const kiriSewnLine, line, sheet->sewn) {
         isPinned = SquaredFromLine(mesh, p, line->from, line->to) < SEWN * SEWN * kiriVec2_Dot(edge, edge);
+    }
+    kiriLatticePoint at = mesh->vertices.data[vertex].at;
+    KIRI_EACH_WHILE(!isPinned, const kiriFoldLine, fold, mesh->folds) {
+        isPinned = kiriFoldLine_Has(fold, at, at); /* both sides stay together */
     }
     return isPinned;
 }
