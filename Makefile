@@ -102,7 +102,7 @@ ADAPTER_OBJECTS := $(BUILD)/samples/box2d/kiri_box2d.cpp.o
 # Without window and main: for tests.
 GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
 # Drawings to cut: SVG, DXF, FOLD.
-IMPORT_OBJECTS := $(filter $(BUILD)/samples/import%,$(SAMPLE_OBJECTS))
+IMPORT_OBJECTS := $(filter $(BUILD)/samples/import% %/export.c.o,$(SAMPLE_OBJECTS))
 # What games and their tests share with the samples.
 PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.

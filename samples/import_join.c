@@ -247,7 +247,7 @@ static bool MateEnds(Join* join, double distance)
                     const double* there = EndOf(join, other);
                     double away = hypot(there[0] - at[0], there[1] - at[1]);
                     if (join->mates[other] != NONE || other / 2 == end / 2 || away > distance ||
-                        join->segments[other / 2].use != join->segments[end / 2].use) {
+                        join->segments[other / 2].style != join->segments[end / 2].style) {
                         continue;
                     }
                     /* The cosine between the ways out of the meeting: -1 goes straight on. */

@@ -3,6 +3,7 @@
 
 #include "debug.h"
 #include "draw.h"
+#include "export.h"
 #include "image.h"
 #include "run_options.h"
 #include "scene.h"
@@ -363,6 +364,26 @@ static bool FinishPictures(Film* film, const Options* options)
     return true;
 }
 
+static bool WriteDrawing(const Scene* scene, const char* path)
+{
+    enum { MOST_SHEETS = 1024 };
+    static kiriSheet sheets[MOST_SHEETS];
+    int32_t count = 0;
+    Import drawing;
+    kiriWorld_GetSheets(scene->world, sheets, MOST_SHEETS, &count);
+    bool isTaken = Export_Take(scene->world, sheets, count < MOST_SHEETS ? count : MOST_SHEETS, &drawing);
+    FILE* file = isTaken ? fopen(path, "w") : NULL;
+    size_t length = strlen(path);
+    bool isFold = length > 5 && strcmp(path + length - 5, ".fold") == 0;
+    bool fine = file != NULL && (isFold ? Export_WriteFold(&drawing, file) : Export_WriteSvg(&drawing, file));
+    fine = file != NULL && fclose(file) == 0 && fine;
+    if (!fine) {
+        fprintf(stderr, "cannot write %s%s%s\n", path, isTaken ? "" : ": ", drawing.error);
+    }
+    Import_Free(&drawing);
+    return fine;
+}
+
 static int32_t CountTicks(const Scene* scene, const SceneReplay* replay, const Options* options)
 {
     int32_t all = replay != NULL ? replay->ticks : scene->type->ticks;
@@ -385,6 +406,7 @@ static bool RunScene(Scene* scene, SceneReplay* replay, const Options* options)
         Times_Print(&times, scene);
     }
     fine = fine && (options->every == 0 || FinishPictures(&film, options));
+    fine = fine && (options->drawing == NULL || WriteDrawing(scene, options->drawing));
     free(times.seconds[0]);
     Film_Destroy(&film);
     return fine;

@@ -12,6 +12,7 @@ void Options_PrintHelp(void)
            "  --scene NAME          which scene\n"
            "  --output FOLDER       where the pictures go (build/pictures)\n"
            "  --film FILE           a moving picture of them too, an animated PNG\n"
+           "  --drawing FILE        borders and cuts at the end: FOLD if the name ends so, else SVG\n"
            "  --record FILE         all calls of the library, to be replayed\n"
            "  --replay FILE         a recording instead of a scene's script\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
@@ -104,6 +105,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
         return true;
     } else if (strcmp(name, "--film") == 0) {
         options->film = value;
+        return true;
+    } else if (strcmp(name, "--drawing") == 0) {
+        options->drawing = value;
         return true;
     } else if (strcmp(name, "--record") == 0) {
         options->record = value;

@@ -1,5 +1,5 @@
 /* SVG, DXF and FOLD become lines to cut and to fold. Each case is a fault of real files. */
-#include "../samples/import.h"
+#include "../samples/export.h"
 #include "look.h"
 
 #include <stdio.h>
@@ -538,6 +538,54 @@ static void TestPieces(void** state)
     Host_Stop(&host);
 }
 
+static void ReadFile(FILE* file)
+{
+    static char text[400000];
+    rewind(file);
+    size_t size = fread(text, 1, sizeof text - 1, file);
+    text[size] = 0;
+    fclose(file);
+    ReadAndJoin(text);
+}
+
+/* A slit, and a square that comes off and moves away as a sheet: written and read again, the lines are the same. */
+static void TestExport(void** state)
+{
+    (void)state;
+    static const float slit[] = { 0.02f, 0.085f, 0.05f, 0.08f, 0.08f, 0.085f };
+    static const float square[] = { 0.0213f, 0.0213f, 0.0613f, 0.0213f, 0.0613f,
+                                    0.0613f, 0.0213f, 0.0613f, 0.0213f, 0.0213f };
+    Host host;
+    kiriSheet sheets[2];
+    Host_Start(&host);
+    OK(kiriCreateRectangle(host.world, 0.1f, 0.1f, 20, 20, NULL, &sheets[0]));
+    Host_Cut(&host, sheets[0], slit, 3);
+    Host_Cut(&host, sheets[0], square, 5);
+    OK(Host_Tick(&host, 0.01f, 1));
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheets[0], 1), &sheets[1]));
+    double slitLength = 2.0 * hypot(30.0, 5.0);
+    for (int form = 0; form < 2; form++) {
+        Import taken;
+        assert_true(Export_Take(host.world, sheets, 2, &taken));
+        FILE* file = tmpfile();
+        assert_non_null(file);
+        assert_true(form == 0 ? Export_WriteSvg(&taken, file) : Export_WriteFold(&taken, file));
+        Import_Free(&taken);
+        ReadFile(file);
+        assert_int_equal(drawing.isSized, 1);
+        assert_int_equal(CountUse(IMPORT_CUT), drawing.lineCount);
+        assert_int_equal(drawing.lineCount, 3); /* inner lines first */
+        assert_true(fabs(LengthOf(0) - slitLength) < 0.1);
+        assert_true(fabs(LengthOf(1) - 160.0) < 0.1);
+        assert_true(fabs(LengthOf(2) - 400.0) < 1e-3);
+    }
+    kiriSheet gone = 12345;
+    Import_Free(&drawing);
+    assert_false(Export_Take(host.world, &gone, 1, &drawing));
+    assert_non_null(strstr(drawing.error, "gone"));
+    Host_Stop(&host);
+}
+
 /* Damaged files give lines or one error line, and finite points. */
 static void TestDamaged(void** state)
 {
@@ -624,6 +672,7 @@ int main(void)
         cmocka_unit_test(TestDoubles),
         cmocka_unit_test(TestMeetings),
         cmocka_unit_test(TestPieces),
+        cmocka_unit_test(TestExport),
         cmocka_unit_test(TestDamaged),
     };
     return cmocka_run_group_tests(tests, NULL, FreeDrawing);

@@ -331,6 +331,35 @@ function tests.no_garbage_in_a_tick()
     assert(made < 64, made)
 end
 
+-- The types for LuaLS have each function with its parameters, and name a type for each of them.
+function tests.types()
+    local path = debug.getinfo(1, "S").source:match "^@(.*)tests/test_lua.lua$" .. "bindings/lua/types/kiri.lua"
+    local types, seen = dofile(path), 0
+    local world = kiri.World()
+    local named = {}
+    local function compare(is, stub, name)
+        local real, typed = debug.getinfo(is, "u"), stub and debug.getinfo(stub, "Su")
+        assert(typed and typed.nparams == real.nparams, name)
+        seen = seen + 1
+    end
+    for name, is in pairs(kiri) do
+        if type(is) == "function" then compare(is, types[name], name) end
+    end
+    for name, is in pairs(world.classes.World) do
+        if type(is) == "function" and not name:match "^__" then compare(is, types.World[name], name) end
+    end
+    for line in io.lines(path) do -- parameters without a type
+        local arguments = line:match "^function [%w.:]+(%b()) end$"
+        if arguments then
+            for argument in arguments:gmatch "%w+" do assert(named[argument], line) end
+            named = {}
+        end
+        local parameter = line:match "^%-%-%-@param (%w+)"
+        if parameter then named[parameter] = true end
+    end
+    assert(seen > 40, seen)
+end
+
 local names, failed = {}, 0
 for name in pairs(tests) do names[#names + 1] = name end
 table.sort(names)

@@ -140,6 +140,53 @@ class Lua:
         return name in self._ids
 
 
+    # ---- For LuaLS
+
+    def hint(self, given):
+        """The type of a field, or of a parameter that is given."""
+        form, kind = given["form"], given["type"]
+        if form == "struct":
+            return f"kiri.{kind[4:]}"
+        if form == "id":
+            return f"kiri.{kind[4:]}"
+        if form == "callback":
+            return "function"
+        if form in ("string", "bytes"):
+            return "string|ffi.cdata*"
+        if form in ("array", "pointer", "strided") or "count" in given:
+            item = f"kiri.{kind[4:]}" if kind.startswith("kiri") else "number"
+            return f"{item}[]|ffi.cdata*"
+        return "boolean|integer" if given.get("flag") else number_of(given)
+
+    def types(self):
+        lines = ["---@meta kiri", "-- Made from kiri.h by `make bindings`: types for LuaLS. kiri.lua is what runs.", "",
+                 "---@class kiri", "local kiri = {}", ""]
+        for enum in self._of["enums"]:
+            lines += [f"kiri.{value['name'][5:]} = {value['value']}" for value in enum["values"]]
+        for name, struct in self._structs.items():
+            lines += ["", *naming.comment(struct["doc"], "--- ").splitlines(), f"---@class kiri.{name[4:]}"]
+            for field in struct["fields"]:
+                doc = " ".join(field["doc"].split())
+                lines.append(f"---@field {field['name']}? {self.hint(field)}{' # ' + doc if doc else ''}")
+        lines += ["", "--- An array of the library, from 0 on. It ends with the next tick.", "---@class kiri.Array: ffi.cdata*",
+                  "---@field [integer] any", ""]
+        for kind in ["World", *self.kinds]:
+            lines += [f"---@class kiri.{kind}", *(["---@overload fun(def?: kiri.WorldDef): kiri.World"] if kind == "World" else
+                                                 ["---@field id integer", "---@field world kiri.World"]), f"local {kind} = {{}}", ""]
+            if kind == "World":
+                lines += ["kiri.World = World", "", "--- Frees the world and all its content.", "function World:destroy() end", "",
+                          "--- Draws the world as after the last tick, by functions of the host.", "---@param draw kiri.DebugDraw",
+                          "function World:debugDraw(draw) end", ""]
+                for other in self.kinds:
+                    lines += [f"---@param id integer", f"---@return kiri.{other}", f"function World:{other.lower()}(id) end", ""]
+        lines += [Method(self, function).stub() for function in self._of["functions"] if function["name"] not in BY_HAND]
+        return "\n".join([*lines, "return kiri", ""])
+
+
+def number_of(declared):
+    return "number" if declared["type"] in ("float", "double") else "integer"
+
+
 class Method:
     """A Lua function for one of C: what is given first, then where answers go (left out: they are made), then lengths."""
 
@@ -148,7 +195,7 @@ class Method:
         self._function = function
         self._derived = naming.derived(function)
         self._given, self._optional, self._lengths = [], [], []
-        self._before, self._passed, self._after, self._returned = [], [], [], []
+        self._before, self._passed, self._after, self._returned, self._kinds = [], [], [], [], []
         self._place = 0
 
     def text(self):
@@ -168,6 +215,25 @@ class Method:
         head = f"function {of}:{name}({arguments})" if of else f"function kiri.{name}({arguments})"
         body = ([f"local world = self{'' if of == 'World' else '.world'}"] if of else []) + self._before + self._call()
         return (naming.comment(function["doc"], "--- ") + head + "\n" + "".join(f"    {line}\n" for line in body) + "end\n")
+
+    def _give(self, value, kind):
+        self._returned.append(value)
+        self._kinds.append(kind)
+
+    def stub(self):
+        """The function with types, for LuaLS."""
+        self.text()
+        function, parameters = self._function, {parameter["name"]: parameter for parameter in self._function["parameters"]}
+        of, text = function["class"], naming.comment(function["doc"], "--- ")
+        for name in self._given + self._optional + self._lengths:
+            parameter = parameters[name]
+            optional = name not in self._given or parameter.get("nullable") or parameter["form"] in ("struct", "strided")
+            text += f"---@param {name}{'?' if optional else ''} {self._lua.hint(parameter)}\n"
+        kinds = self._kinds or [{"const char*": "string", "kiriResult": "boolean # work is left for later ticks"}.get(
+            function["returns"], "integer")]
+        text += "".join(f"---@return {kind}\n" for kind in kinds)
+        arguments = ", ".join(self._given + self._optional + self._lengths)
+        return text + f"function {of + ':' if of else 'kiri.'}{self.name()}({arguments}) end\n"
 
     def _call(self):
         function = self._function
@@ -259,12 +325,12 @@ class Method:
         kept = naming.camel(parameter["name"])
         self._passed.append(place)
         self._after.append(f"local {kept} = {place}[0]" + (" ~= 0" if parameter.get("flag") else ""))
-        self._returned.append(kept)
+        self._give(kept, "boolean" if parameter.get("flag") else number_of(parameter))
 
     def _out_id(self, parameter):
         kind = parameter["type"][4:]
         self._passed.append(f"out.{kind}")
-        self._returned.append(f"handle(world, out.{kind}[0], \"{kind}\")")
+        self._give(f"handle(world, out.{kind}[0], \"{kind}\")", f"kiri.{kind}{'?' if naming.may_give_none(self._function, parameter) else ''}")
 
     def _out_struct(self, parameter):
         name, kind = parameter["name"], parameter["type"]
@@ -276,13 +342,13 @@ class Method:
         else:
             self._before.append(f"{name} = {name} or new.{kind}()")
             self._passed.append(name)
-        self._returned.append(name)
+        self._give(name, f"kiri.{kind[4:]}")
 
     def _out_view(self, parameter):
         kind = parameter["type"]
         self._passed.append(f"out.{kind}Rows")
-        self._returned.append(f"new.{kind}Array(out.{kind}Rows[0], out.int32_t[0], {parameter['width']}, world.cell, "
-                              "now[world.cell])")
+        self._give(f"new.{kind}Array(out.{kind}Rows[0], out.int32_t[0], {parameter['width']}, world.cell, now[world.cell])",
+                   "kiri.Array")
 
     def _out_array(self, parameter):
         name, kind, length = parameter["name"], parameter["type"], parameter["length"]
@@ -292,13 +358,13 @@ class Method:
         elif length in self._derived:  # an answer for each that was given
             self._before.append(f"local {name} = ffi.new(\"{kind}[?]\", {length})")
             self._passed.append(name)
-            self._returned.append(f"list_of(world, {name}, {length}, \"{kind[4:]}\", false)")
+            self._give(f"list_of(world, {name}, {length}, \"{kind[4:]}\", false)", f"kiri.{kind[4:]}[]")
         else:
             count = f"{width} * {length}" if width > 1 else length
             (self._given if length in self._known else self._optional).append(name)
             self._before.append(f"{name} = {name} or ffi.new(\"{kind}[?]\", {count})")
             self._passed.append(name)
-            self._returned.append(name)
+            self._give(name, "ffi.cdata*")
 
     def _out_list(self, parameter):
         """Into the room that there is; again where that was not enough."""
@@ -310,7 +376,8 @@ class Method:
         self._passed.append(f"room.{kind}" if width == 1 else f"room.{kind}{width}")
         what = f"\"{kind[4:]}\"" if self._lua.is_id(kind) else "nil"
         many = f" * {width}" if width > 1 else ""
-        self._returned.append(f"list_of(world, {self._passed[-1]}, out.int32_t[0]{many}, {what})")
+        self._give(f"list_of(world, {self._passed[-1]}, out.int32_t[0]{many}, {what})",
+                   f"kiri.{kind[4:]}[]" if self._lua.is_id(kind) else "number[]")
 
     def _out_bytes(self, parameter):
         """Into the host's buffer, or a string."""
@@ -320,7 +387,7 @@ class Method:
         self._after += [f"if {name} then return tonumber(out.int64_t[0]) end",
                         f"{name} = ffi.new(\"uint8_t[?]\", out.int64_t[0])",
                         f"local size = self:{self.name()}({', '.join([*self._given, name, 'out.int64_t[0]', *self._lengths])})"]
-        self._returned.append(f"ffi.string({name}, size)")
+        self._give(f"ffi.string({name}, size)", "string")
 
     def name(self):
         return RENAMED.get(self._function["method"], naming.camel(self._function["method"]))
@@ -335,4 +402,4 @@ def files(description):
     for name, part in made.items():
         text = text.replace(f"--@{name}@", part).replace(f"@{name}@", part)
     version = description["version"]
-    return {"bindings/lua/kiri.lua": text, f"bindings/lua/kiri-{version}-1.rockspec": ROCKSPEC.replace("VERSION", version)}
+    return {"bindings/lua/kiri.lua": text, "bindings/lua/types/kiri.lua": lua.types(), f"bindings/lua/kiri-{version}-1.rockspec": ROCKSPEC.replace("VERSION", version)}

@@ -176,10 +176,13 @@ babylon-test: babylon
 package-javascript: packages-package-javascript
 	@$(MAKE) --no-print-directory $(WASM_PACKAGE)/kiri.wasm
 	@cd $(WASM_PACKAGE) && npm pkg set version=$(VERSION) --silent && npm pack --silent --pack-destination .. > /dev/null
-	@rm -rf $(WASM)/clean && mkdir $(WASM)/clean && cp tests/first_cut.mjs $(WASM)/clean
+	@rm -rf $(WASM)/clean && mkdir $(WASM)/clean && cp tests/first_cut.mjs tests/first_cut.cjs $(WASM)/clean
 	@cd $(WASM)/clean && npm init -y > /dev/null 2>&1 && npm install --no-audit --no-fund --silent ../kiri-$(VERSION).tgz && \
 	    node first_cut.mjs | grep '^2 pieces'
+	@if node -e 'process.exit(process.features.require_module ? 0 : 1)'; then cd $(WASM)/clean && node first_cut.cjs | grep '^2 pieces'; \
+	else echo "package-javascript: node before 20.19, CommonJS not tested"; fi
 	@$(MAKE) --no-print-directory $(WEB_TOOLS)/installed
+	@$(WEB_TOOLS)/node_modules/.bin/publint --strict $(WASM_PACKAGE)
 	@{ sed 's/^const world = /using world = /' tests/first_cut.mjs; } > $(WASM)/clean/first_cut.mts
 	@cd $(WASM)/clean && ../../web_tools/node_modules/.bin/tsc --noEmit --strict --target es2022 --module nodenext first_cut.mts && \
 	    echo "  TypeScript takes the declarations, and using world = new World()"

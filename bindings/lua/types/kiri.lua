@@ -1,0 +1,1331 @@
+---@meta kiri
+-- Made from kiri.h by `make bindings`: types for LuaLS. kiri.lua is what runs.
+
+---@class kiri
+local kiri = {}
+
+kiri.OK = 0
+kiri.PENDING = 1
+kiri.ERROR_ARGUMENT = -1
+kiri.ERROR_DEF = -2
+kiri.ERROR_ID = -3
+kiri.ERROR_MESH = -4
+kiri.ERROR_STATE = -5
+kiri.ERROR_MEMORY = -6
+kiri.DIVERGED = -7
+kiri.ERROR_LIMIT = -8
+kiri.ERROR_BUILD = -9
+kiri.ERROR_DATA = -10
+kiri.ERROR_REPLAY = -11
+kiri.LEAST_TRIANGLES = 16
+kiri.MOST_NOTE_BYTES = 1048576
+kiri.EVENT_CUT_FINISHED = 1
+kiri.EVENT_PIECE_OFF = 2
+kiri.EVENT_FRAME_ADDED = 3
+kiri.EVENT_DIVERGED = 4
+kiri.EVENT_DEFERRED = 5
+kiri.EVENT_PIN_BROKE = 6
+kiri.EVENT_PIECE_DETACHED = 7
+kiri.EVENT_SEAM_BROKE = 8
+kiri.STAGE_CUT = 0
+kiri.STAGE_GRID = 1
+kiri.STAGE_REGIONS = 2
+kiri.STAGE_SHAPE = 3
+kiri.STAGE_SAMPLES = 4
+kiri.STAGE_CONSTANTS = 5
+kiri.STAGE_CONTACT = 6
+kiri.STAGE_SOLVE = 7
+kiri.STAGE_SKIN = 8
+kiri.STAGE_COUNT = 9
+kiri.MATERIAL_PAPER = 0
+kiri.MATERIAL_COTTON = 1
+kiri.MATERIAL_RUBBER = 2
+kiri.MATERIAL_FOIL = 3
+kiri.MATERIAL_CARD = 4
+kiri.MATERIAL_COUNT = 5
+kiri.QUALITY_FAST = 0
+kiri.QUALITY_BALANCED = 1
+kiri.QUALITY_ACCURATE = 2
+kiri.QUALITY_COUNT = 3
+kiri.MODEL_LINKS = 0
+kiri.MODEL_AFFINE = 1
+kiri.MODEL_POINTS = 2
+kiri.SKINNING_LINEAR = 0
+kiri.SKINNING_SMOOTH = 1
+kiri.TIME_STEPPING_SECOND_ORDER = 0
+kiri.TIME_STEPPING_EULER = 1
+kiri.PIN_POINT = 0
+kiri.PIN_HINGE = 1
+kiri.PIN_CLAMP = 2
+kiri.OBSTACLE_PLANE = 0
+kiri.OBSTACLE_SPHERE = 1
+kiri.OBSTACLE_CAPSULE = 2
+kiri.OBSTACLE_BOX = 3
+kiri.OBSTACLE_CYLINDER = 4
+kiri.OBSTACLE_PRISM = 5
+kiri.DRAW_TRIANGLES = 1
+kiri.DRAW_EDGES = 2
+kiri.DRAW_BORDERS = 4
+kiri.DRAW_FRAMES = 8
+kiri.DRAW_LINKS = 16
+kiri.DRAW_PINS = 32
+kiri.DRAW_CONTACTS = 64
+kiri.DRAW_BLADES = 128
+kiri.DRAW_BOXES = 256
+kiri.DRAW_OBSTACLES = 512
+kiri.DRAW_POINTS = 1024
+kiri.DRAW_ALL = 2047
+
+--- Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
+--- 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
+--- depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
+--- bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).
+---@class kiri.Budget
+---@field triangles? integer # split by blades; 0, or KIRI_LEAST_TRIANGLES and more
+---@field cells? integer # visited, or with a new distance: grid, regions, shape functions. A link counts as a cell
+---@field samples? integer # vertices and collision points with new weights, and the cost of the commit, paid before it
+---@field iterations? integer # linear systems, 30 to 60 us each; a large one counts as several (manual, budget)
+
+--- Settings of a world: gravity, budget, and functions of the host.
+---@class kiri.WorldDef
+---@field cookie? integer
+---@field gravity? number[]|ffi.cdata* # m/s^2; default (0, 0, -9.81)
+---@field budget? kiri.Budget # default: no limit
+---@field alloc? function # null: malloc and free. Set both or none.
+---@field free? function
+---@field log? function # one line for each error; null: silent
+---@field clock? function # null: the profile has counts, and no times
+---@field startTask? function # null: a tick runs in the calling thread alone. Set both or none.
+---@field finishTask? function
+---@field workerCount? integer # threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks
+---@field user? number[]|ffi.cdata* # passed to the functions above
+---@field record? function # receives the recording of the world, see kiriWorld_Replay; null: no recording
+---@field recordHashTicks? integer # ticks between state hashes in the recording; one is at its end. 0: none. Default 60
+
+--- Progress of a replay. Set all fields to zero before the first call.
+---@class kiri.Replay
+---@field offset? integer # bytes of the recording that were read
+---@field calls? integer # calls made so far
+---@field ticks? integer # ticks made so far, without refused ones
+---@field note? number[]|ffi.cdata* # bytes of the note where the replay stopped, in the recording; else null
+---@field noteCount? integer
+
+--- An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1.
+---@class kiri.Event
+---@field type? integer # KIRI_EVENT_...
+---@field sheet? kiri.Sheet
+---@field cut? kiri.Cut # or 0
+---@field frame? kiri.Frame # or 0
+---@field pin? kiri.Pin # or 0
+---@field crumb? boolean|integer # 1: the piece is a crumb, see kiriSheetDef
+---@field area? number # m^2 of the piece, or 0
+---@field stage? integer # KIRI_STAGE_..., or -1
+---@field waiting? integer # points and ends of cuts that are pending or in work; or 0
+---@field seam? kiri.Seam # or 0
+---@field stitches? integer # that the seam has left, or 0
+
+--- Work and time of the last tick.
+---@class kiri.Profile
+---@field seconds? number[]|ffi.cdata* # of the last tick; zero without a clock
+---@field cutSegments? integer # blade segments that took effect
+---@field trianglesSplit? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
+---@field cellsSettled? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
+---@field samplesRefreshed? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
+---@field solverIterations? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
+---@field cellsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field weightsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field verticesChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field pointsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field linksChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field commits? integer # sheets in which a cut took effect
+---@field systemsSolved? integer # linear systems, large and small
+---@field contacts? integer # planes given to the solver: by the host, by obstacles, and between sheets
+---@field sheetPairs? integer # pairs of sheets or pieces that are near each other and not both asleep
+---@field largestJump? number # The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.
+---@field largestFade? number # The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.
+
+--- The material of a sheet: homogeneous, isotropic.
+---@class kiri.Material
+---@field youngsModulus? number # Pa, above 0
+---@field poissonsRatio? number # 0 to below 0.5
+---@field thickness? number # m, above 0
+---@field density? number # kg/m^3, above 0
+---@field airDamping? number # 1/s, 0 or more: velocities fade as exp(-airDamping t)
+---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
+---@field yieldStress? number # Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or more; 0: elastic
+---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
+---@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0
+
+--- Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
+--- BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
+--- (accuracy).
+---@class kiri.Quality
+---@field framesAlong? integer # control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
+---@field gridResolution? integer # for the sheet def
+---@field iterations? integer # for the sheet def
+---@field substeps? integer # for kiriWorld_Tick
+
+--- Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder.
+---@class kiri.PaperOptions
+---@field fromScratch? boolean|integer # 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
+---@field popping? boolean|integer # 1: only new frames take their motion from the surface: it jumps, momentum is not kept
+---@field linearWeights? boolean|integer # 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
+---@field integrationPoints? integer # KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to 1048576
+---@field integrationOrder? integer # 1 or 2
+
+--- A sheet: its rest shape, start, material, and computation.
+---@class kiri.SheetDef
+---@field cookie? integer
+---@field restPositions? number[]|ffi.cdata* # The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several parts are allowed. Two edges in the same place with different vertices are the lips of a cut (manual, meshes). 2 floats (u, v) a vertex
+---@field vertexCount? integer
+---@field indices? number[]|ffi.cdata* # 3 a triangle
+---@field triangleCount? integer
+---@field position? number[]|ffi.cdata* # Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
+---@field axisU? number[]|ffi.cdata* # Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
+---@field axisV? number[]|ffi.cdata* # Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
+---@field velocity? number[]|ffi.cdata* # Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
+---@field material? kiri.Material
+---@field gridResolution? integer # grid squares along the longer side, 1 to 4096; default 32
+---@field snapDistance? number # m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer side. The manual has more (cutting)
+---@field weldDistance? number # Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).
+---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and more; default 5
+---@field frameLength? number # m; used where frameCount is 0; default 0
+---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
+---@field framePoints? number[]|ffi.cdata*
+---@field maxFrames? integer # re-sampling stops here; default 256
+---@field rigidWeight? number # Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). default 0.95
+---@field rigidArea? number # default 0
+---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
+---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
+---@field contactThickness? number # m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness, at least a 20th of a grid square
+---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
+---@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field collisionPoints? integer # spread evenly over the sheet, at least one in every piece; default 0: none
+---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
+---@field sleepSpeed? number # A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+---@field model? integer # KIRI_MODEL_..., default KIRI_MODEL_LINKS
+---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+---@field planar? boolean|integer # 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.
+---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
+---@field fadeTime? number # s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
+---@field normals? boolean|integer # 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
+---@field paper? kiri.PaperOptions # default: all off
+
+--- Sheet settings that can change after creation. Fields mean the same as in kiriSheetDef.
+---@class kiri.SheetSettings
+---@field cookie? integer
+---@field material? kiri.Material
+---@field maxFrames? integer # re-sampling stops here; default 256
+---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
+---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
+---@field contactThickness? number # m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness, at least a 20th of a grid square
+---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
+---@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
+---@field sleepSpeed? number # A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
+---@field fadeTime? number # stays 0 with paper.popping
+---@field normals? boolean|integer # 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
+
+--- A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
+--- piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
+--- lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).
+---@class kiri.Fold
+---@field from? number[]|ffi.cdata* # m
+---@field to? number[]|ffi.cdata* # m
+---@field stiffness? number # N m/rad per metre of the line, 0 or more; 0: a free hinge
+---@field restAngle? number # rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
+---@field yieldMoment? number # N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
+
+--- A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
+--- joined: 0 where all of it is cut, or inside one region.
+---@class kiri.FoldState
+---@field fold? kiri.Fold
+---@field angle? number
+---@field length? number
+
+--- The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
+--- grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
+--- have the precision of the library, 2^-29 of the sheet.
+---@class kiri.Mesh
+---@field positions? number[]|ffi.cdata* # 3 a vertex, m, world
+---@field normals? number[]|ffi.cdata* # 3 a vertex, unit; null where the sheet makes none
+---@field restPositions? number[]|ffi.cdata* # 2 a vertex, m
+---@field indices? number[]|ffi.cdata* # 3 a triangle
+---@field sourceTriangles? number[]|ffi.cdata* # 1 a vertex: the triangle of the def that contains it,
+---@field sourceWeights? number[]|ffi.cdata* # 3 a vertex: and its barycentric coordinates there
+---@field vertexCount? integer
+---@field triangleCount? integer
+---@field revision? integer
+
+--- `count` items from `first` on.
+---@class kiri.Range
+---@field first? integer
+---@field count? integer
+
+--- Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
+--- Other data of a vertex, and the corners of a triangle, change only in these ranges.
+---@class kiri.Dirty
+---@field newVertices? kiri.Range # up to the last one of the mesh
+---@field newTriangles? kiri.Range # up to the last one of the mesh
+---@field oldVertices? kiri.Range # the smallest ranges that hold all older ones with other data
+---@field oldTriangles? kiri.Range # the smallest ranges that hold all older ones with other data
+---@field revision? integer # for the next call
+
+--- The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the vertices
+--- of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge.
+---@class kiri.Solid
+---@field positions? number[]|ffi.cdata* # 3 a vertex, m, world
+---@field normals? number[]|ffi.cdata* # 3 a vertex, unit, outwards
+---@field restPositions? number[]|ffi.cdata* # 2 a vertex, m
+---@field indices? number[]|ffi.cdata* # 3 a triangle, counter-clockwise from outside
+---@field sources? number[]|ffi.cdata* # 1 a vertex: its vertex in kiriMesh
+---@field vertexCount? integer
+---@field triangleCount? integer
+---@field rimTriangle? integer # rims begin at this triangle
+
+--- Numbers of items in a sheet.
+---@class kiri.Counts
+---@field vertices? integer
+---@field triangles? integer
+---@field cells? integer
+---@field frames? integer
+---@field links? integer
+---@field pieces? integer
+---@field collisionPoints? integer
+
+--- m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s.
+---@class kiri.Totals
+---@field area? number
+---@field mass? number
+---@field kineticEnergy? number
+---@field elasticEnergy? number
+---@field center? number[]|ffi.cdata*
+---@field momentum? number[]|ffi.cdata*
+---@field angularMomentum? number[]|ffi.cdata*
+
+--- The first point where a ray meets a sheet.
+---@class kiri.Hit
+---@field restPoint? number[]|ffi.cdata* # m: where to cut
+---@field position? number[]|ffi.cdata* # m, world
+---@field normal? number[]|ffi.cdata* # unit
+---@field distance? number # m along the direction, which need not be a unit vector
+---@field triangle? integer # -1: none
+
+--- A point of the material on the visible surface.
+---@class kiri.PointState
+---@field position? number[]|ffi.cdata* # m, world; unit
+---@field normal? number[]|ffi.cdata* # m, world; unit
+---@field velocity? number[]|ffi.cdata* # m/s, by the weights of the point
+---@field frame? kiri.Frame # the frame of its region; it also names the piece
+
+--- A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces;
+--- they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending
+--- work has not separated anything yet. Momentum is about the world's origin.
+---@class kiri.PieceState
+---@field area? number # m^2, kg
+---@field mass? number # m^2, kg
+---@field center? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
+---@field momentum? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
+---@field angularMomentum? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
+---@field lower? number[]|ffi.cdata* # m, world: the smallest box around its vertices
+---@field upper? number[]|ffi.cdata* # m, world: the smallest box around its vertices
+---@field frames? integer # counts
+---@field vertices? integer # counts
+---@field triangles? integer # counts
+---@field collisionPoints? integer # counts
+---@field crumb? boolean|integer # 1: see kiriSheetDef
+---@field asleep? boolean|integer # 1: see sleepSpeed
+
+--- The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece.
+---@class kiri.PieceMesh
+---@field vertices? number[]|ffi.cdata* # of kiriMesh
+---@field triangles? number[]|ffi.cdata* # of kiriMesh
+---@field indices? number[]|ffi.cdata* # 3 a triangle, as in kiriMesh: draw them
+---@field collisionPoints? number[]|ffi.cdata* # see kiriSheet_GetCollisionPoints
+---@field vertexCount? integer
+---@field triangleCount? integer
+---@field collisionPointCount? integer
+
+--- Pose, motion and region of a frame.
+---@class kiri.FrameState
+---@field restPoint? number[]|ffi.cdata* # m
+---@field position? number[]|ffi.cdata* # m, world: of the rest point
+---@field rotation? number[]|ffi.cdata* # columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
+---@field velocity? number[]|ffi.cdata* # m/s
+---@field angularVelocity? number[]|ffi.cdata* # rad/s
+---@field area? number # m^2 of its region
+---@field mass? number # kg
+---@field held? boolean|integer # 1: moved by the host, see kiriFrame_Hold
+
+--- Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
+--- square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
+--- constant wind, and still air (zero velocity) resists.
+---@class kiri.Wind
+---@field velocity? number[]|ffi.cdata* # m/s
+---@field density? number # kg/m^3, 0 or more; air: 1.2
+---@field drag? number # 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
+---@field lift? number # 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
+
+--- A pin holds a point of the material at its target by a spring.
+---@class kiri.PinDef
+---@field cookie? integer
+---@field restPoint? number[]|ffi.cdata* # m, in the material
+---@field target? number[]|ffi.cdata* # m, world
+---@field stiffness? number # N/m; 0: ten times Young's modulus times thickness
+---@field breakForce? number # N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
+---@field obstacle? kiri.Obstacle # or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
+
+--- Type and target of a pin.
+---@class kiri.PinState
+---@field type? integer # KIRI_PIN_...
+---@field sheet? kiri.Sheet
+---@field from? number[]|ffi.cdata* # m, rest plane: the ends of the line, or the point twice
+---@field to? number[]|ffi.cdata* # m, rest plane: the ends of the line, or the point twice
+---@field target? number[]|ffi.cdata* # m, world
+---@field rotation? number[]|ffi.cdata* # of a line; of a point the identity
+---@field breakForce? number # N, or 0
+---@field obstacle? kiri.Obstacle # that the target moves with, or 0
+
+--- A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
+--- into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
+--- through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
+--- them. The manual has lines, hinges and breaking (sewing).
+---@class kiri.SeamDef
+---@field cookie? integer
+---@field sheetA? kiri.Sheet # of the same model, and not planar
+---@field sheetB? kiri.Sheet # of the same model, and not planar
+---@field lineA? number[]|ffi.cdata* # 2 floats a point, m, in the material, such as its edge; copied
+---@field lineB? number[]|ffi.cdata*
+---@field countA? integer # points: 2 or more
+---@field countB? integer # points: 2 or more
+---@field stitches? integer # up to 4096; 0 (default): two for each distance of frames
+---@field stiffness? number # N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
+---@field restAngle? number # rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
+---@field breakForce? number # N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+
+--- A stitch, as after the last tick.
+---@class kiri.Stitch
+---@field sheetA? kiri.Sheet
+---@field sheetB? kiri.Sheet
+---@field restA? number[]|ffi.cdata* # m, in the material
+---@field restB? number[]|ffi.cdata* # m, in the material
+---@field position? number[]|ffi.cdata* # m, world: where both points meet. A host that welds the drawn lips puts them there
+---@field gap? number # m: distance of the two points; a stitch yields by micrometres under the sheet's weight
+---@field force? number[]|ffi.cdata* # N, on sheet A: mean over the last tick that moved it
+---@field angle? number # rad, as restAngle
+
+--- A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
+--- Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
+--- sheet. A contact that the point does not reach in the tick costs little and does nothing.
+---@class kiri.Contact
+---@field point? integer # index of the collision point; -1: restPoint names the point
+---@field restPoint? number[]|ffi.cdata* # m, in the material; read only where point is -1
+---@field normal? number[]|ffi.cdata* # unit, out of the obstacle
+---@field offset? number # m: of the obstacle's surface at the start of the tick
+---@field velocity? number[]|ffi.cdata* # m/s: of the obstacle at the contact. The plane moves with it within the tick
+---@field friction? number # 0 or more: of both sides together
+---@field inverseMass? number # 1/kg, 0 or more: of the obstacle along the normal, 1/m + (r x n) . I^-1 (r x n); 0: rigid
+---@field pushSpeed? number # m/s, 0 or more: maximum speed of a point that is pushed out from below. 0: 1 m/s
+---@field obstacle? integer # a number of the host. Contacts with one number press on one obstacle, and share its mass
+
+--- The result of a contact in the last tick.
+---@class kiri.ContactForce
+---@field impulse? number[]|ffi.cdata* # N s, on the sheet: the sum over the tick. The obstacle gets the opposite
+---@field position? number[]|ffi.cdata* # m, world: the point of the sheet at the end of the tick
+---@field depth? number # m: of the point below the plane at the end of the tick; below 0: above it
+---@field point? integer # as in the contact
+---@field obstacle? integer # as in the contact
+
+--- An obstacle: its shape, pose, motion, and mass.
+---@class kiri.ObstacleDef
+---@field cookie? integer
+---@field type? integer # KIRI_OBSTACLE_...
+---@field size? number[]|ffi.cdata* # m
+---@field radius? number # m
+---@field height? number # m
+---@field outline? number[]|ffi.cdata* # 2 floats a corner, m, counter-clockwise; copied
+---@field outlineCount? integer # 3 to 64
+---@field rounding? number # m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
+---@field position? number[]|ffi.cdata* # m, world
+---@field rotation? number[]|ffi.cdata* # columns; default: the axes of the world
+---@field velocity? number[]|ffi.cdata* # m/s, of its position
+---@field angularVelocity? number[]|ffi.cdata* # rad/s
+---@field surfaceVelocity? number[]|ffi.cdata* # m/s, world: of its surface, added to its motion, as of a conveyor
+---@field friction? number # 0 or more; default 0.5
+---@field mass? number # kg; 0 (default): nothing moves it
+---@field inertia? number[]|ffi.cdata* # kg m^2, about its centre of mass, axes of the world in the current pose: xx yy zz xy xz yz. Positive definite, but for axes whose numbers are all 0: it does not turn about these
+---@field centerOfMass? number[]|ffi.cdata* # m, from its position in its own axes
+---@field body? integer # obstacles with the same number, except 0, are parts of one body; each has its whole mass
+---@field pushSpeed? number # m/s, above 0: maximum speed at which points inside are pushed out. Default 1
+---@field groups? integer # see the sheet def. Default: all
+
+--- Pose, motion, and reaction of an obstacle.
+---@class kiri.ObstacleState
+---@field position? number[]|ffi.cdata*
+---@field rotation? number[]|ffi.cdata*
+---@field velocity? number[]|ffi.cdata*
+---@field angularVelocity? number[]|ffi.cdata*
+---@field impulse? number[]|ffi.cdata* # N s, N m s about its centre of mass: of sheets and pins in the last tick
+---@field angularImpulse? number[]|ffi.cdata* # N s, N m s about its centre of mass: of sheets and pins in the last tick
+---@field contacts? integer # that pushed in the last tick
+
+--- A corner to draw, in a layout for a GPU.
+---@class kiri.DrawVertex
+---@field position? number[]|ffi.cdata* # m, world
+---@field color? integer # red in its lowest byte, then green, blue, and opacity, which is 255
+
+--- Flags, filter and functions of debug draw.
+---@class kiri.DebugDraw
+---@field cookie? integer
+---@field flags? integer # KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES
+---@field sheet? kiri.Sheet # draws only this one, without obstacles and blades; 0 (default): all
+---@field size? number # m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05
+---@field points? function # null: these are not drawn
+---@field lines? function # the same
+---@field triangles? function # the same
+---@field user? number[]|ffi.cdata* # passed to these functions
+
+--- An array of the library, from 0 on. It ends with the next tick.
+---@class kiri.Array: ffi.cdata*
+---@field [integer] any
+
+---@class kiri.World
+---@overload fun(def?: kiri.WorldDef): kiri.World
+local World = {}
+
+kiri.World = World
+
+--- Frees the world and all its content.
+function World:destroy() end
+
+--- Draws the world as after the last tick, by functions of the host.
+---@param draw kiri.DebugDraw
+function World:debugDraw(draw) end
+
+---@param id integer
+---@return kiri.Sheet
+function World:sheet(id) end
+
+---@param id integer
+---@return kiri.Cut
+function World:cut(id) end
+
+---@param id integer
+---@return kiri.Frame
+function World:frame(id) end
+
+---@param id integer
+---@return kiri.Pin
+function World:pin(id) end
+
+---@param id integer
+---@return kiri.Obstacle
+function World:obstacle(id) end
+
+---@param id integer
+---@return kiri.Blade
+function World:blade(id) end
+
+---@param id integer
+---@return kiri.Seam
+function World:seam(id) end
+
+---@class kiri.Sheet
+---@field id integer
+---@field world kiri.World
+local Sheet = {}
+
+---@class kiri.Cut
+---@field id integer
+---@field world kiri.World
+local Cut = {}
+
+---@class kiri.Frame
+---@field id integer
+---@field world kiri.World
+local Frame = {}
+
+---@class kiri.Pin
+---@field id integer
+---@field world kiri.World
+local Pin = {}
+
+---@class kiri.Obstacle
+---@field id integer
+---@field world kiri.World
+local Obstacle = {}
+
+---@class kiri.Blade
+---@field id integer
+---@field world kiri.World
+local Blade = {}
+
+---@class kiri.Seam
+---@field id integer
+---@field world kiri.World
+local Seam = {}
+
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
+---@return integer
+function kiri.getVersion() end
+
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
+---@param result integer
+---@return string
+function kiri.getResultName(result) end
+
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
+---@param result integer
+---@return string
+function kiri.getResultText(result) end
+
+--- Fills the def with its defaults, and stamps it.
+---@param def? kiri.WorldDef
+---@return kiri.WorldDef
+function kiri.defaultWorldDef(def) end
+
+--- Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
+--- points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
+--- KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids
+--- is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for
+--- new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
+---@param dt number
+---@param substeps integer
+---@return boolean # work is left for later ticks
+function World:tick(dt, substeps) end
+
+--- Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
+--- that only reads does not change the line, and logs its own. Valid until the next function that changes the world.
+---@return string
+function World:getLastError() end
+
+--- Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
+--- floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
+--- keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+---@param origin number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function World:shiftOrigin(origin) end
+
+--- Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+---@param gravity number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function World:setGravity(gravity) end
+
+--- Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+---@param budget? kiri.Budget
+---@return boolean # work is left for later ticks
+function World:setBudget(budget) end
+
+--- Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
+--- same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
+--- pending.
+---@return integer
+function World:getStateHash() end
+
+--- Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are.
+---@return kiri.Sheet[]
+function World:getSheets() end
+
+--- Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
+--- replay stops there. The world does not change; without a recording nothing happens.
+---@param bytes string|ffi.cdata*
+---@param count? integer
+---@return boolean # work is left for later ticks
+function World:note(bytes, count) end
+
+--- Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
+--- host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
+--- another result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
+--- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
+--- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
+---@param recording string|ffi.cdata*
+---@param replay? kiri.Replay
+---@param size? integer
+---@return boolean # work is left for later ticks
+function World:replay(recording, replay, size) end
+
+--- Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
+--- KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
+--- *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.
+---@param bytes? string|ffi.cdata*
+---@param capacity? integer
+---@return string
+function World:save(bytes, capacity) end
+
+--- Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
+--- events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+--- kiriWorld_Tick.
+---@return boolean # work is left for later ticks
+function World:finishCuts() end
+
+--- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give
+--- a strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31.
+--- Arrays that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA:
+--- the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
+---@param bytes string|ffi.cdata*
+---@param size? integer
+---@return boolean # work is left for later ticks
+function World:load(bytes, size) end
+
+--- For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
+--- and exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save.
+---@param bytes? string|ffi.cdata*
+---@param capacity? integer
+---@return string
+function World:snapshot(bytes, capacity) end
+
+--- Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
+--- has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY.
+---@param bytes string|ffi.cdata*
+---@param size? integer
+---@return boolean # work is left for later ticks
+function World:restore(bytes, size) end
+
+--- Gets the events: *events points to *count of them.
+---@return kiri.Array
+function World:getEvents() end
+
+--- Gets the profile of the last tick that was not refused.
+---@param profile? kiri.Profile
+---@return kiri.Profile
+function World:getProfile(profile) end
+
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
+--- linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The
+--- host chooses by its clock, so a replay must set the same budgets.
+---@param profile? kiri.Profile
+---@param microseconds number
+---@param budget? kiri.Budget
+---@return boolean # work is left for later ticks
+function kiri.fitBudget(profile, microseconds, budget) end
+
+--- Returns the name of a stage; "" for another number.
+---@param stage integer
+---@return string
+function kiri.getStageName(stage) end
+
+--- Gets the numbers of a preset, KIRI_MATERIAL_...
+---@param preset integer
+---@param material? kiri.Material
+---@return kiri.Material
+function kiri.getMaterial(preset, material) end
+
+--- Gets the numbers of a preset, KIRI_QUALITY_...
+---@param preset integer
+---@param quality? kiri.Quality
+---@return kiri.Quality
+function kiri.getQuality(preset, quality) end
+
+--- Fills the def with its defaults, and stamps it. It has no mesh yet.
+---@param def? kiri.SheetDef
+---@return kiri.SheetDef
+function kiri.defaultSheetDef(def) end
+
+--- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+--- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+--- def.
+---@param def? kiri.SheetDef
+---@return kiri.Sheet
+function World:createSheet(def) end
+
+--- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+--- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+--- def.
+---@return boolean # work is left for later ticks
+function Sheet:destroy() end
+
+--- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
+--- columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
+--- kiriCreateSheet.
+---@param width number
+---@param height number
+---@param columns integer
+---@param rows integer
+---@param def? kiri.SheetDef
+---@return kiri.Sheet
+function World:createRectangle(width, height, columns, rows, def) end
+
+--- Gets the current settings, stamped for kiriSheet_SetSettings.
+---@param settings? kiri.SheetSettings
+---@return kiri.SheetSettings
+function Sheet:getSettings(settings) end
+
+--- Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
+--- kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes
+--- the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
+---@param settings? kiri.SheetSettings
+---@return boolean # work is left for later ticks
+function Sheet:setSettings(settings) end
+
+--- Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
+--- not KIRI_MODEL_LINKS.
+---@param def? kiri.SheetDef
+---@param folds kiri.Fold[]|ffi.cdata*
+---@param count? integer
+---@return kiri.Sheet
+function World:createFoldedSheet(def, folds, count) end
+
+--- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+--- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+---@param index integer
+---@param state? kiri.FoldState
+---@return kiri.FoldState
+function Sheet:getFold(index, state) end
+
+--- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+--- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+---@param index integer
+---@param stiffness number
+---@param restAngle number
+---@return boolean # work is left for later ticks
+function Sheet:setFold(index, stiffness, restAngle) end
+
+--- Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats
+--- and 6 * columns * rows indices. columns and rows are 1 to 4096.
+---@param width number
+---@param height number
+---@param columns integer
+---@param rows integer
+---@param restPositions? number[]|ffi.cdata*
+---@param indices? number[]|ffi.cdata*
+---@return ffi.cdata*
+---@return ffi.cdata*
+function kiri.fillRectangle(width, height, columns, rows, restPositions, indices) end
+
+--- Gets the arrays, without a copy.
+---@param mesh? kiri.Mesh
+---@return kiri.Mesh
+function Sheet:getMesh(mesh) end
+
+--- Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
+---@param sinceRevision integer
+---@param dirty? kiri.Dirty
+---@return kiri.Dirty
+function Sheet:getDirty(sinceRevision, dirty) end
+
+--- Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
+--- these. KIRI_ERROR_STATE: the sheet makes no normals.
+---@param first integer
+---@param count integer
+---@param positions? number[]|ffi.cdata*
+---@param positionStride integer
+---@param normals? number[]|ffi.cdata*
+---@param normalStride integer
+---@return boolean # work is left for later ticks
+function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride) end
+
+--- Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
+--- ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
+--- another gets the index of the other. The manual has the code (drawing).
+---@param first integer
+---@param count integer
+---@param vertices number[]|ffi.cdata*
+---@return ffi.cdata*
+---@return kiri.Sheet
+function Sheet:copyPrevious(first, count, vertices) end
+
+--- Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more than 65535 vertices.
+---@param firstTriangle integer
+---@param count integer
+---@param indices number[]|ffi.cdata*
+---@return ffi.cdata*
+function Sheet:copyIndices16(firstTriangle, count, indices) end
+
+--- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
+--- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
+--- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+---@param firstTriangle integer
+---@param count integer
+---@param sources number[]|ffi.cdata*
+---@return ffi.cdata*
+function Sheet:copySources(firstTriangle, count, sources) end
+
+--- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
+--- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
+--- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+---@param firstTriangle integer
+---@param count integer
+---@param weights number[]|ffi.cdata*
+---@return ffi.cdata*
+function Sheet:copySourceWeights(firstTriangle, count, weights) end
+
+--- Makes the solid surface. thickness: m, 0: the material's thickness.
+---@param thickness number
+---@param solid? kiri.Solid
+---@return kiri.Solid
+function Sheet:getSolid(thickness, solid) end
+
+--- Gets the collision points: 3 floats of position (m, world) a point.
+---@return kiri.Array
+function Sheet:getCollisionPoints() end
+
+--- Gets the counts, at no cost.
+---@param counts? kiri.Counts
+---@return kiri.Counts
+function Sheet:getCounts(counts) end
+
+--- Sums the totals over the frames.
+---@param totals? kiri.Totals
+---@return kiri.Totals
+function Sheet:getTotals(totals) end
+
+--- Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
+--- many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
+--- KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
+---@return number
+function Sheet:estimateError() end
+
+--- Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
+---@return boolean
+function Sheet:isAwake() end
+
+--- Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
+---@return boolean # work is left for later ticks
+function Sheet:wake() end
+
+--- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
+--- columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
+--- pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
+--- set targets or move obstacles (sheets). Pending loads and contacts stay.
+---@param rotation number[]|ffi.cdata*
+---@param translation number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Sheet:transform(rotation, translation) end
+
+--- Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+--- of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+--- held.
+---@param velocity number[]|ffi.cdata*
+---@param angularVelocity number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Sheet:setVelocity(velocity, angularVelocity) end
+
+--- Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+--- of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+--- held.
+---@param velocity number[]|ffi.cdata*
+---@param angularVelocity number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Frame:setPieceVelocity(velocity, angularVelocity) end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@param data integer
+---@return boolean # work is left for later ticks
+function Sheet:setUserData(data) end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@return integer
+function Sheet:getUserData() end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@param data integer
+---@return boolean # work is left for later ticks
+function Pin:setUserData(data) end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@return integer
+function Pin:getUserData() end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@param data integer
+---@return boolean # work is left for later ticks
+function Frame:setPieceUserData(data) end
+
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
+---@return integer
+function Frame:getPieceUserData() end
+
+--- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+--- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+---@param origin number[]|ffi.cdata*
+---@param direction number[]|ffi.cdata*
+---@param maxDistance number
+---@param hit? kiri.Hit
+---@return kiri.Hit
+function Sheet:raycast(origin, direction, maxDistance, hit) end
+
+--- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+--- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+---@param origin number[]|ffi.cdata*
+---@param direction number[]|ffi.cdata*
+---@param maxDistance number
+---@param hit? kiri.Hit
+---@return kiri.Sheet?
+---@return kiri.Hit
+function World:raycast(origin, direction, maxDistance, hit) end
+
+--- Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point.
+---@param restPoint number[]|ffi.cdata*
+---@param state? kiri.PointState
+---@return kiri.PointState
+function Sheet:getPoint(restPoint, state) end
+
+--- Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
+--- null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT:
+--- the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+---@param restPoint number[]|ffi.cdata*
+---@return kiri.Frame[]
+---@return number[]
+---@return number[]
+function Sheet:getWeights(restPoint) end
+
+--- Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
+---@param piece integer
+---@param state? kiri.PieceState
+---@return kiri.PieceState
+function Sheet:getPiece(piece, state) end
+
+--- Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
+---@param piece integer
+---@param mesh? kiri.PieceMesh
+---@return kiri.PieceMesh
+function Sheet:getPieceMesh(piece, mesh) end
+
+--- Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
+---@param piece integer
+---@return kiri.Array
+function Sheet:getPieceFrames(piece) end
+
+--- Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
+---@return integer
+function Frame:getPiece() end
+
+--- Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
+--- the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
+--- the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
+--- *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
+--- tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
+---@return kiri.Sheet?
+function Frame:detachPiece() end
+
+--- Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
+--- samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
+--- corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+---@return boolean # work is left for later ticks
+function Frame:destroyPiece() end
+
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
+--- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
+--- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+---@param frames kiri.Frame[]|ffi.cdata*
+---@param count? integer
+---@return kiri.Sheet[]
+function World:detachPieces(frames, count) end
+
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
+--- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
+--- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+---@param frames kiri.Frame[]|ffi.cdata*
+---@param count? integer
+---@return boolean # work is left for later ticks
+function World:destroyPieces(frames, count) end
+
+--- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
+--- the largest piece is pending to become a sheet, the largest of the others stays, too.
+---@param area number
+---@return integer
+function Sheet:dropCrumbs(area) end
+
+--- Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
+--- tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
+---@param restPoint number[]|ffi.cdata*
+---@return kiri.Cut
+function Sheet:beginCut(restPoint) end
+
+--- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+--- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+---@param restPoints number[]|ffi.cdata*
+---@param count? integer
+---@return boolean # work is left for later ticks
+function Cut:extend(restPoints, count) end
+
+--- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+--- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+---@return boolean # work is left for later ticks
+function Cut:finish() end
+
+--- Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
+--- the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
+---@param blade number[]|ffi.cdata*
+---@return kiri.Cut
+function Sheet:slice(blade) end
+
+--- Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+---@param sheet? kiri.Sheet
+---@return kiri.Blade
+function World:beginBlade(sheet) end
+
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+---@param from number[]|ffi.cdata*
+---@param to number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Blade:moveEdge(from, to) end
+
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+---@param origin number[]|ffi.cdata*
+---@param direction number[]|ffi.cdata*
+---@param length number
+---@return boolean # work is left for later ticks
+function Blade:moveRay(origin, direction, length) end
+
+--- It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+---@return boolean # work is left for later ticks
+function Blade:finish() end
+
+--- Writes up to `capacity` ids of the sheet's frames; *count is how many there are.
+---@return kiri.Frame[]
+function Sheet:getFrames() end
+
+--- Gets the current state.
+---@param state? kiri.FrameState
+---@return kiri.FrameState
+function Frame:getState(state) end
+
+--- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
+--- (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
+--- Material of which held frames carry more than half moves through obstacles.
+---@param position? number[]|ffi.cdata*
+---@param rotation? number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Frame:hold(position, rotation) end
+
+--- Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
+---@param force? number[]|ffi.cdata*
+---@param torque? number[]|ffi.cdata*
+---@return ffi.cdata*
+---@return ffi.cdata*
+function Frame:getReaction(force, torque) end
+
+--- Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
+---@param force number[]|ffi.cdata*
+---@param torque number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Frame:applyForce(force, torque) end
+
+--- Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
+---@param restPoint number[]|ffi.cdata*
+---@param force number[]|ffi.cdata*
+---@param torque number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Sheet:applyForce(restPoint, force, torque) end
+
+--- Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
+--- included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+---@param from number[]|ffi.cdata*
+---@param to number[]|ffi.cdata*
+---@param forcePerLength number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Sheet:applyLineLoad(from, to, forcePerLength) end
+
+--- Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
+---@param pressure number
+---@return boolean # work is left for later ticks
+function Sheet:applyPressure(pressure) end
+
+--- Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
+--- frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
+---@param restPoint number[]|ffi.cdata*
+---@param impulse number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Sheet:applyImpulse(restPoint, impulse) end
+
+--- Copies the wind; it blows until the next call.
+---@param wind? kiri.Wind
+---@return boolean # work is left for later ticks
+function Sheet:setWind(wind) end
+
+--- Fills the def with its defaults, and stamps it.
+---@param def? kiri.PinDef
+---@return kiri.PinDef
+function kiri.defaultPinDef(def) end
+
+--- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+---@param def? kiri.PinDef
+---@return kiri.Pin
+function Sheet:createPin(def) end
+
+--- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+---@return boolean # work is left for later ticks
+function Pin:destroy() end
+
+--- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+--- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
+--- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
+--- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+--- material.
+---@param from number[]|ffi.cdata*
+---@param to number[]|ffi.cdata*
+---@return kiri.Pin
+function Sheet:clampLine(from, to) end
+
+--- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+--- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
+--- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
+--- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+--- material.
+---@param from number[]|ffi.cdata*
+---@param to number[]|ffi.cdata*
+---@return kiri.Pin
+function Sheet:hingeLine(from, to) end
+
+--- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
+--- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
+--- surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
+---@param target number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Pin:setTarget(target) end
+
+--- Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On
+--- a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
+---@param target number[]|ffi.cdata*
+---@param rotation number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Pin:setPose(target, rotation) end
+
+--- Sets the force (N) that breaks a pin of any type; 0: it never breaks.
+---@param breakForce number
+---@return boolean # work is left for later ticks
+function Pin:setBreakForce(breakForce) end
+
+--- Gets the current state.
+---@param state? kiri.PinState
+---@return kiri.PinState
+function Pin:getState(state) end
+
+--- Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
+--- last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
+--- motion.
+---@param force? number[]|ffi.cdata*
+---@param torque? number[]|ffi.cdata*
+---@return ffi.cdata*
+---@return ffi.cdata*
+function Pin:getReaction(force, torque) end
+
+--- Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are.
+---@return kiri.Pin[]
+function Sheet:getPins() end
+
+--- Fills the def with its defaults, and stamps it.
+---@param def? kiri.SeamDef
+---@return kiri.SeamDef
+function kiri.defaultSeamDef(def) end
+
+--- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+--- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+---@param def? kiri.SeamDef
+---@return kiri.Seam
+function World:createSeam(def) end
+
+--- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+--- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+---@return boolean # work is left for later ticks
+function Seam:destroy() end
+
+--- Sets stiffness and restAngle, as in the def.
+---@param stiffness number
+---@param restAngle number
+---@return boolean # work is left for later ticks
+function Seam:setHinge(stiffness, restAngle) end
+
+--- Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+---@param index integer
+---@param stitch? kiri.Stitch
+---@return kiri.Stitch
+function Seam:getStitch(index, stitch) end
+
+--- Gets the number of stitches that are left.
+---@return integer
+function Seam:getCount() end
+
+--- Writes up to `capacity` ids of the world's seams; *count is how many there are.
+---@return kiri.Seam[]
+function World:getSeams() end
+
+--- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
+--- point, or rest point, and obstacle of an earlier one starts with the earlier impulse.
+---@param contacts kiri.Contact[]|ffi.cdata*
+---@param count? integer
+---@return boolean # work is left for later ticks
+function Sheet:setContacts(contacts, count) end
+
+--- Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on.
+---@return kiri.Array
+function Sheet:getContactForces() end
+
+--- Fills the def with its defaults, and stamps it.
+---@param def? kiri.ObstacleDef
+---@return kiri.ObstacleDef
+function kiri.defaultObstacleDef(def) end
+
+--- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+---@param def? kiri.ObstacleDef
+---@return kiri.Obstacle
+function World:createObstacle(def) end
+
+--- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+---@return boolean # work is left for later ticks
+function Obstacle:destroy() end
+
+--- Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.
+---@param position number[]|ffi.cdata*
+---@param rotation number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Obstacle:setPose(position, rotation) end
+
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
+---@param velocity number[]|ffi.cdata*
+---@param angularVelocity number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Obstacle:setVelocity(velocity, angularVelocity) end
+
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
+---@param velocity number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Obstacle:setSurfaceVelocity(velocity) end
+
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
+---@param mass number
+---@param inertia number[]|ffi.cdata*
+---@param centerOfMass number[]|ffi.cdata*
+---@return boolean # work is left for later ticks
+function Obstacle:setMass(mass, inertia, centerOfMass) end
+
+--- Gets the current state.
+---@param state? kiri.ObstacleState
+---@return kiri.ObstacleState
+function Obstacle:getState(state) end
+
+--- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
+--- no obstacles or contacts outside. For moving obstacles add their own way.
+---@param dt number
+---@param lower? number[]|ffi.cdata*
+---@param upper? number[]|ffi.cdata*
+---@return ffi.cdata*
+---@return ffi.cdata*
+function Sheet:getReach(dt, lower, upper) end
+
+--- Fills it with its defaults, and stamps it.
+---@param draw? kiri.DebugDraw
+---@return kiri.DebugDraw
+function kiri.defaultDebugDraw(draw) end
+
+return kiri
