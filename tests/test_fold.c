@@ -105,6 +105,41 @@ static void HalfASheetHangsOnItsHinge(void** state)
     }
 }
 
+/* Returns how far the free end of a clamped sheet hangs, m; with a fold of this stiffness, or below 0 without one. */
+static double SagOf(float stiffness, float lean, int32_t frames)
+{
+    const kiriFold fold = { { 0.045f - lean, -1e-3f }, { 0.045f + lean, 0.051f }, stiffness, 0.0f, 0.0f };
+    kiriSheetDef def = StiffDef();
+    kiriPin pin;
+    kiriPointState end;
+    Host host;
+    Host_Start(&host);
+    host.every = 100;
+    def.frameCount = frames;
+    def.gridResolution = 48;
+    kiriSheet sheet = stiffness < 0.0f ? Host_AddRectangle(&host, &def, 0.1f, 0.05f, 20, 10)
+                                       : AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
+    OK(kiriSheet_ClampLine(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.05f }, &pin));
+    Host_Ticks(&host, 300, Dt, 2);
+    OK(kiriSheet_GetPoint(host.world, sheet, (const float[]){ 0.1f, 0.025f }, &end));
+    Host_Stop(&host);
+    return -(double)end.position[2];
+}
+
+/* A fold that is stiffer than the material bends as the material does. */
+static void StiffFoldsAreLikeNone(void** state)
+{
+    (void)state;
+    for (int32_t frames = 12; frames <= 24; frames += 12) {
+        double none = SagOf(-1.0f, 0.0f, frames);
+        for (int lean = 0; lean < 2; ++lean) {
+            double with = SagOf(1e3f, 0.02f * (float)lean, frames);
+            print_message("%d frames: %.3f mm for %.3f mm\n", frames, 1e3 * with, 1e3 * none);
+            assert_true(fabs(with / none - 1.0) < 0.025);
+        }
+    }
+}
+
 /* The seen surface is two planes, as far as rigid frames carry them. */
 static void SeenSurfaceIsTwoPlanes(void** state)
 {
@@ -609,6 +644,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(HalfASheetHangsOnItsHinge),
+        cmocka_unit_test(StiffFoldsAreLikeNone),
         cmocka_unit_test(SeenSurfaceIsTwoPlanes),
         cmocka_unit_test(CutsGoThroughFolds),
         cmocka_unit_test(BladesGoThroughFolds),

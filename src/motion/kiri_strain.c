@@ -573,7 +573,7 @@ static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material,
     double nu = (double)material->poissonsRatio, W = link->width, l = link->length;
     double membrane = (double)material->youngsModulus * material->thickness / l, bending = PlateStiffness(material) / l;
     double share = link->hinge / (bending + link->hinge);
-    double loose = 1.0 / (1.0 + share * share / (HALF_HINGE * HALF_HINGE));
+    double stiff = share * share / (HALF_HINGE * HALF_HINGE), loose = 1.0 / (1.0 + stiff * stiff);
     stiffness[KIRI_STRETCH] = membrane * W;
     stiffness[KIRI_SHEAR] = membrane * W / (1.0 + nu);
     stiffness[KIRI_PLANE_BENDING] = membrane * kiriMax(link->moment, W * W * W / 12.0);

@@ -402,7 +402,7 @@ kiri.DRAW_ALL = 2047
 ---@field lineB? number[]|ffi.cdata*
 ---@field countA? integer # points: 2 or more
 ---@field countB? integer # points: 2 or more
----@field stitches? integer # up to 4096; 0 (default): two for each distance of frames
+---@field stitches? integer # 2 to 4096; 0 (default): three for two distances of frames
 ---@field stiffness? number # N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
 ---@field restAngle? number # rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
 ---@field breakForce? number # N/m: a stitch breaks in a tick with a larger force for its length; 0: never
@@ -768,6 +768,13 @@ function Sheet:setSettings(settings) end
 ---@param count? integer
 ---@return kiri.Sheet
 function World:createFoldedSheet(def, folds, count) end
+
+--- Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+--- cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
+--- moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+---@param fold? kiri.Fold
+---@return integer
+function Sheet:addFold(fold) end
 
 --- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
 --- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
