@@ -119,13 +119,13 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
-        if (kiriContact_IsMutual(step)) {
-            continue; /* it acts on both sides */
-        }
         if (system->mechanics.planar) {
             impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
         }
         kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
+        if (kiriContact_IsMutual(step)) { /* it acts on both sides, whose points are `point` apart */
+            given.force = kiriVec3_Make(0.0, 0.0, 0.0);
+        }
         kiriWrench_Add(&momentum.pushed, 1.0, &given);
     }
     kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, &momentum, solver->materials.data,

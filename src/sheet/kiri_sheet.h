@@ -163,6 +163,17 @@ typedef struct kiriPinAnchor {
 } kiriPinAnchor;
 
 /* Probes: the vertices that may touch other sheets, see kiri_touch.h. */
+/* Marks of a vertex of a piece that folds. */
+enum {
+    KIRI_FOLD_NEAR = 1,    /* another layer is near */
+    KIRI_FOLD_TANGLED = 2, /* on the wrong side of a layer */
+    KIRI_FOLD_FLAT = 4,    /* drawn on the skin */
+    KIRI_FOLD_PROBE = 8,
+    KIRI_FOLD_ABOVE = 16, /* above the layer in front of the probe; times 2: behind it */
+    KIRI_FOLD_BELOW = 64, /* the same below */
+    KIRI_FOLD_PLACE = KIRI_FOLD_PROBE | 3 * KIRI_FOLD_ABOVE | 3 * KIRI_FOLD_BELOW
+};
+
 typedef struct kiriProbes {
     bool isFresh;                    /* mesh and pieces have not changed since */
     bool folds;                      /* a piece folds, so that it may touch itself */
@@ -178,8 +189,7 @@ typedef struct kiriProbes {
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
     KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
-    kiriIndices vertexFrame;         /* if it folds. Per vertex: the frame with the largest weight; its region has it */
-    kiriPieceRow regions;            /* if it folds: probes, by frame */
+    kiriFlags marks;                 /* per vertex, while a piece folds: KIRI_FOLD_... of this tick */
 } kiriProbes;
 
 typedef struct kiriPinData {

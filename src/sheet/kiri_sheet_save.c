@@ -205,7 +205,7 @@ KIRI_TABLE(ProbesTable, kiriProbes, {
     KIRI_DROPPED(areGrouped),
     KIRI_DROPPED(sheet, list),
     KIRI_DROPPED(boxes, touch),
-    KIRI_DROPPED(vertexFrame, regions),
+    KIRI_DROPPED(marks),
 })
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */

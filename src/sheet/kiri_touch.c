@@ -144,18 +144,6 @@ static bool ListChosen(kiriSheetData* sheet, const int32_t* ofVertex, int32_t gr
     return true;
 }
 
-bool kiriProbes_ListRegions(kiriSheetData* sheet)
-{
-    kiriProbes* probes = &sheet->probes;
-    if (!kiriArray_Resize(sheet->memory, &probes->vertexFrame, probes->vertexPiece.count)) {
-        return false;
-    }
-    for (int32_t v = 0; v < probes->vertexFrame.count; ++v) {
-        probes->vertexFrame.data[v] = kiriSkin_LeadingFrame(&sheet->vertexSkin, v);
-    }
-    return ListChosen(sheet, probes->vertexFrame.data, sheet->frames.count, &probes->regions);
-}
-
 /* Marks the vertices of the border, and adds the normals of border edges to their leans. */
 static void MarkBorder(kiriSheetData* sheet)
 {
@@ -679,10 +667,10 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
     row->otherCount = WriteWeights(other, &blend, row->otherWeights, KIRI_CONTACT_SIDE);
     row->mass = kiriMin(ProbeMass(sheet, row->weights, row->weightCount),
                         ProbeMass(other, row->otherWeights, row->otherCount));
-    row->reach = 0.5 * distance;
     row->otherAt = blend.at;
     const int32_t* pieces = sheet->layout.framePiece.data;
     row->isFold = sheet == other && pieces[row->weights[0].frame] == pieces[row->otherWeights[0].frame];
+    row->reach = 0.5 * (row->isFold ? sheet->settings.foldThickness : distance);
     if (!kiriSheet_Moves(other, row->otherWeights[0].frame) || other->rest.asleep ||
         other->settings.mechanics.model != sheet->settings.mechanics.model) {
         return false;

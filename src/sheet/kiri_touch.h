@@ -99,9 +99,6 @@ bool kiriProbes_Remake(kiriSheetData* sheet);
 /* Returns the frame with the largest weight. */
 int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample);
 
-/* Sets vertexFrame, and lists the probes by frame. Probes are up to date. Fails on out of memory. */
-bool kiriProbes_ListRegions(kiriSheetData* sheet);
-
 /* Returns the velocity of a vertex, m/s. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 

@@ -30,24 +30,18 @@ static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
     return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
 }
 
-static bool IsRegion(const kiriBody* body)
-{
-    return body->frame != KIRI_NONE;
-}
-
 /* Returns the probes of a body. */
 static kiriIndexSpan ProbesOf(const kiriBody* body)
 {
-    const kiriPieceRow* row = IsRegion(body) ? &body->sheet->probes.regions : &body->sheet->probes.list;
-    kiriSpan span = kiriPieceRow_Of(row, IsRegion(body) ? body->frame : body->piece);
+    const kiriPieceRow* row = &body->sheet->probes.list;
+    kiriSpan span = kiriPieceRow_Of(row, body->piece);
     return (kiriIndexSpan){ row->items.data + span.first, span.count };
 }
 
 /* Returns the distance that two bodies keep, m. */
 static double KeptDistance(const kiriBody* a, const kiriBody* b)
 {
-    const kiriSettings *one = &a->sheet->settings, *other = &b->sheet->settings;
-    return IsRegion(a) ? one->foldThickness : 0.5 * (one->contactThickness + other->contactThickness);
+    return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
 /* ---- Contacts ---- */
@@ -182,7 +176,7 @@ static bool IsPairNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, c
 {
     const kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
     const kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
-    return near->body == pair->bodies[0] || IsRegion(&pairs->bodies.data[near->body]) || lower->probes.isBorder.data[near->vertex] ||
+    return near->body == pair->bodies[0] || lower->probes.isBorder.data[near->vertex] ||
            lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
@@ -277,15 +271,14 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
         if (!IsPairNeeded(pairs, pair, near) ||
-            !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch)) ||
-            (IsRegion(&pairs->bodies.data[near->body]) && touch.gap < -distance)) {
+            !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
             continue;
         }
         if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * distance)) {
             continue;
         }
         touch.distance = distance;
-        touch.isFold = IsRegion(&pairs->bodies.data[near->body]);
+        touch.isFold = false;
         touch.velocity = PlaceVelocity(&touch.lower);
         touch.touch = KIRI_NONE;
         double above = touch.gap - Approach(world, &touch, dt);
@@ -416,7 +409,6 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         memset(&body, 0, sizeof(body));
         body.sheet = sheet;
         body.piece = p;
-        body.frame = KIRI_NONE;
         body.id = sheet->frames.data[sheet->layout.pieces.data[p].frame].id;
         body.box = sheet->probes.boxes.data[p];
         body.speed = sheet->probes.speeds.data[p];
@@ -659,11 +651,7 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
     const kiriSheetData* sheet = bodies[near->other].sheet;
     double across = near->height * near->height, way = WayToBorder(sheet, near);
     bool isLip = bodies[near->body].sheet->probes.isBorder.data[near->vertex];
-    bool isEdge = way <= 0.0; /* or of a region: its neighbor is nearer */
-    for (int k = 0; IsRegion(&bodies[near->other]) && k < 3; ++k) {
-        isEdge |= near->share[k] <= 0.0;
-    }
-    return (isEdge && squared - across >= STEEP * STEEP * across) ||
+    return (way <= 0.0 && squared - across >= STEEP * STEEP * across) ||
            (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
 }
 
@@ -678,11 +666,6 @@ static double LookAtTriangle(void* context, int32_t triangle)
 {
     Looking* looking = context;
     kiriNear one = *looking->near;
-    const kiriBody* other = &looking->bodies[one.other];
-    int32_t corner = other->sheet->seen.surface.indices.data[3 * (size_t)triangle];
-    if (IsRegion(other) && other->sheet->probes.vertexFrame.data[corner] != other->frame) {
-        return looking->least;
-    }
     double squared = Measure(&one, looking->bodies, triangle);
     bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
     if (squared < looking->least || isLower) {
@@ -706,37 +689,6 @@ static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, do
     return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }
 
-#define MOST_SHARED 0.5 /* of the weights, on frames that carry both places: if more are shared the places move together */
-#define OPEN 0.5        /* of their distance at rest: places farther apart are beside each other */
-
-/* Returns true if a probe and a place of the same piece may touch. */
-static bool MayTouchItself(const kiriSheetData* sheet, const kiriNear* near)
-{
-    const kiriSkin* skin = &sheet->vertexSkin;
-    const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* corners = &surface->indices.data[3 * (size_t)near->triangle];
-    kiriSpan own = skin->spans.data[near->vertex];
-    kiriVec2 rest = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
-    kiriVec3 off = kiriVec3_Scale(-1.0, kiriSurface_At(surface, near->vertex));
-    double shared = 0.0;
-    for (int c = 0; c < 3; ++c) {
-        rest = kiriVec2_Add(rest, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
-        off = kiriVec3_AddScaled(off, near->share[c], kiriSurface_At(surface, corners[c]));
-    }
-    for (int32_t k = own.first; k < own.first + own.count; ++k) {
-        double there = 0.0;
-        for (int c = 0; c < 3; ++c) {
-            kiriSpan other = skin->spans.data[corners[c]];
-            for (int32_t n = other.first; n < other.first + other.count; ++n) {
-                const kiriSampleWeight* weight = &skin->weights.data[n];
-                there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
-            }
-        }
-        shared += kiriMin(skin->weights.data[k].value, there);
-    }
-    return shared <= MOST_SHARED && kiriVec3_Dot(off, off) < OPEN * OPEN * kiriVec2_Dot(rest, rest);
-}
-
 /* Finds the near places of a body's probes on another body. Fails on out of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
@@ -746,13 +698,12 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     kiriBox box = Widened(&b->box, reach);
     bool ok = true;
     for (int32_t i = 0; ok && i < probes.count; ++i) {
-        kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0 };
+        kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
         if (!Holds(&box, x)) {
             continue;
         }
-        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b)) &&
-            (!IsRegion(a) || MayTouchItself(a->sheet, &near))) {
+        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
             ok = kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }
@@ -843,27 +794,13 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
     return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED_OVER;
 }
 
-/* Returns true if regions did not touch, or if a probe is so deep that it has passed through, or round the border. */
-static bool IsLost(const kiriPairs* pairs, const kiriTouchingPair* old, kiriSpan nears, int32_t lower)
-{
-    const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
-    double most = KeptDistance(&pairs->bodies.data[lower], &pairs->bodies.data[lower]);
-    bool isLost = !old->touches;
-    for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
-        const kiriNear* near = &pairs->nears.data[i];
-        bool isTurned = near->body == lower && kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) > 0.0;
-        isLost |= (isTurned ? -old->side : old->side) * near->height < -most;
-    }
-    return isLost;
-}
-
 static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kiriSpan nears, double dt)
 {
     const kiriPairs* pairs = &world->pairs;
     const kiriBody *one = &pairs->bodies.data[a], *other = &pairs->bodies.data[b];
     const kiriTouchingPair* old = FindOld(pairs, one->id, other->id);
     int32_t last = old != NULL && old->upper == one->id ? b : a; /* the lower one in the last tick */
-    if (old != NULL && (IsRegion(one) ? IsLost(pairs, old, nears, last) : HasSideTurned(world, old, last, nears))) {
+    if (old != NULL && HasSideTurned(world, old, last, nears)) {
         old = NULL;
     }
     bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));
@@ -964,10 +901,48 @@ static bool LookAtAll(kiriWorld* world, double dt)
 
 /* ---- Folds ----
 
-   Regions of a piece that folds are bodies like pieces: pairs of them keep sides. */
+   A probe of a piece that folds touches the nearest place of the piece in front of it, and the nearest one behind it. It
+   stays on its side of both. An edge that crosses a triangle is moved so that the line in which the surfaces cross gets
+   shorter: sides are not stored (Volino, Magnenat-Thalmann, Resolving surface collisions through intersection contour
+   minimization, 2006). */
 
-#define FOLDED 0.3  /* cosine: if the directors of all frames are nearer to their mean the piece does not fold */
-#define CLOSER 0.75 /* of the distance at rest: farther frames do not touch */
+#define FOLDED 0.3       /* cosine: if the directors of all frames are nearer to their mean the piece does not fold */
+#define GRAZING 0.2      /* minimum sine of the angle between an edge and a triangle that it crosses */
+#define STRAIGHT 0.2     /* change of the length of the line per length of a move: less gives no direction */
+#define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
+#define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other */
+
+/* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
+   or the same frames carry them. Zero if places at this distance are beside each other. */
+static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, double off)
+{
+    const kiriSkin* skin = &sheet->vertexSkin;
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* corners = &surface->indices.data[3 * (size_t)near->triangle];
+    kiriSpan own = skin->spans.data[near->vertex];
+    kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
+    double shared = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
+    }
+    double rest = sqrt(kiriVec2_Dot(apart, apart));
+    if (off >= OPEN * rest) {
+        return 0.0;
+    }
+    for (int32_t k = own.first; k < own.first + own.count; ++k) {
+        double there = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            kiriSpan other = skin->spans.data[corners[c]];
+            for (int32_t n = other.first; n < other.first + other.count; ++n) {
+                const kiriSampleWeight* weight = &skin->weights.data[n];
+                there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
+            }
+        }
+        shared += kiriMin(skin->weights.data[k].value, there);
+    }
+    double most = kiriMin(sheet->settings.foldThickness, 0.5 * OPEN * rest);
+    return most * kiriClamp(2.0 * (1.0 - shared / MOST_SHARED), 0.0, 1.0);
+}
 
 static bool Folds(const kiriSheetData* sheet, int32_t piece)
 {
@@ -983,91 +958,271 @@ static bool Folds(const kiriSheetData* sheet, int32_t piece)
     return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]) && !sheet->layout.pieces.data[piece].isGone;
 }
 
-/* Adds the regions of a piece, with empty boxes. Fails on out of memory. */
-static bool ListRegions(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
+/* A search in a piece that folds. */
+typedef struct FoldSearch {
+    kiriWorld* world;
+    kiriSheetData* sheet;
+    kiriBody body;
+    kiriVec3 ahead;   /* normal at the probe */
+    kiriNear found[2]; /* of the probe: in front, and behind */
+    double least[2];  /* m^2: of their distance; or of half of the edge */
+    int32_t edge, a, b; /* half-edge and its ends */
+    bool ok;
+} FoldSearch;
+
+static double LookAtLayer(void* context, int32_t triangle)
 {
-    kiriPairs* pairs = &world->pairs;
-    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    FoldSearch* search = context;
+    kiriNear one = search->found[0];
+    double squared = Measure(&one, &search->body, triangle), across = one.height * one.height;
+    int side = one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0 ? 0 : 1;
+    bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
+    if (squared < search->least[side] || isFirst) {
+        bool isEdge = one.share[0] <= 0.0 || one.share[1] <= 0.0 || one.share[2] <= 0.0;
+        double aslant = isEdge && squared > across ? sqrt((squared - across) / across) / STEEP : 0.0;
+        /* Less beside the border, and where a neighbor is nearer. */
+        one.kept = FoldDistance(search->sheet, &one, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
+        if (one.kept > 0.0) {
+            search->least[side] = squared;
+            search->found[side] = one;
+        }
+    }
+    return kiriMax(search->least[0], search->least[1]);
+}
+
+static void MarkFold(kiriSheetData* sheet, const kiriNear* near)
+{
+    KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
+    const int32_t* corners = &sheet->seen.surface.indices.data[3 * (size_t)near->triangle];
+    sheet->probes.marks.data[near->vertex] |= KIRI_FOLD_NEAR;
+    for (int k = 0; k < 3; ++k) {
+        sheet->probes.marks.data[corners[k]] |= KIRI_FOLD_NEAR;
+    }
+}
+
+/* Finds the near layers of all probes. */
+static bool FindLayers(FoldSearch* search, double dt)
+{
+    kiriWorld* world = search->world;
+    kiriSheetData* sheet = search->sheet;
+    const kiriProbes* probes = &sheet->probes;
+    kiriSpan span = kiriPieceRow_Of(&probes->list, search->body.piece);
+    kiriGroup group = { probes->vertexPiece.data, search->body.piece };
+    kiriVec3 mean = kiriVec3_Scale(1.0 / search->body.mass, search->body.momentum);
+    double stir = dt * kiriVec3_Length(world->gravity);
     bool ok = true;
-    for (int32_t k = 0; ok && k < frames.count; ++k) {
-        const kiriFrameData* frame = &sheet->frames.data[frames.data[k]];
-        kiriBody body = { .sheet = sheet, .piece = piece, .frame = frames.data[k], .id = frame->id };
-        body.box.lower = kiriVec3_Make(HUGE_VAL, HUGE_VAL, HUGE_VAL);
-        body.box.upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
-        body.mass = frame->mass;
-        body.momentum = kiriVec3_Scale(frame->mass, frame->velocity);
-        body.isHeld = frame->held != 0;
-        pairs->frameBodies.data[frames.data[k]] = pairs->bodies.count;
-        ok = kiriArray_Push(&world->memory, &pairs->bodies, body);
+    KIRI_ASSERT(search->body.mass > 0.0 && probes->velocities.count == probes->list.items.count);
+    KIRI_EACH_IN(i, span) {
+        stir = kiriMax(kiriVec3_Distance(probes->velocities.data[i], mean), stir);
     }
-    return ok;
-}
-
-/* Finds the boxes of regions, and the speeds of their probes. */
-static void MeasureFolded(kiriPairs* pairs, const kiriSheetData* sheet, int32_t first)
-{
-    const int32_t* corners = sheet->seen.surface.indices.data; /* a triangle is of the region of its first corner */
-    for (int32_t n = 0; n < sheet->seen.surface.indices.count; ++n) {
-        KIRI_ASSERT_HAS(sheet->probes.vertexFrame, corners[n]);
-        int32_t body = pairs->frameBodies.data[sheet->probes.vertexFrame.data[corners[n - n % 3]]];
-        if (body != KIRI_NONE) {
-            kiriBox_Add(&pairs->bodies.data[body].box, kiriSurface_At(&sheet->seen.surface, corners[n]));
-        }
-    }
-    for (int32_t b = first; b < pairs->bodies.count; ++b) {
-        kiriBody* body = &pairs->bodies.data[b];
-        kiriIndexSpan probes = ProbesOf(body);
-        for (int32_t k = 0; k < probes.count; ++k) {
-            kiriVec3 velocity = kiriProbe_Velocity(sheet, probes.data[k]);
-            kiriVec3 beside = kiriVec3_Sub(velocity, sheet->frames.data[body->frame].velocity);
-            body->speed = kiriMax(kiriVec3_Length(velocity), body->speed);
-            body->stir = kiriMax(kiriVec3_Length(beside), body->stir);
-        }
-    }
-}
-
-static bool LookAtFolds(kiriWorld* world, kiriSheetData* sheet, double dt)
-{
-    kiriPairs* pairs = &world->pairs;
-    int32_t first = pairs->bodies.count;
-    bool ok = kiriProbes_Update(sheet) && kiriProbes_ListRegions(sheet) &&
-              kiriArray_Resize(&world->memory, &pairs->frameBodies, sheet->frames.count);
-    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
-        pairs->frameBodies.data[f] = KIRI_NONE;
-    }
-    for (int32_t p = 0; ok && p < sheet->layout.pieces.count; ++p) {
-        ok = !Folds(sheet, p) || ListRegions(world, sheet, p);
-    }
-    if (ok) {
-        MeasureFolded(pairs, sheet, first);
-    }
-    for (int32_t a = first; ok && a < pairs->bodies.count; ++a) {
-        const kiriFrameData* one = &sheet->frames.data[pairs->bodies.data[a].frame];
-        int32_t piece = pairs->bodies.data[a].piece;
-        for (int32_t b = a + 1; ok && b < pairs->bodies.count && pairs->bodies.data[b].piece == piece; ++b) {
-            const kiriFrameData* other = &sheet->frames.data[pairs->bodies.data[b].frame];
-            kiriVec3 off = kiriVec3_Sub(other->x, one->x);
-            kiriVec2 rest = kiriVec2_Sub(other->center, one->center);
-            if (kiriVec3_Dot(off, off) < CLOSER * CLOSER * kiriVec2_Dot(rest, rest)) {
-                ok = LookAtPair(world, a, b, dt);
+    for (int32_t i = span.first; ok && i < span.first + span.count; ++i) {
+        double speed = kiriVec3_Distance(probes->velocities.data[i], mean) + stir;
+        double reach = 2.0 * sheet->settings.foldThickness + dt * speed;
+        kiriNear none = { 0, 0, probes->list.items.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
+        search->found[0] = search->found[1] = none;
+        search->least[0] = search->least[1] = reach * reach;
+        search->ahead = kiriVertex_SkinNormal(sheet, none.vertex);
+        kiriBounds_Nearest(sheet->seen.bounds, &sheet->seen.surface, group,
+                           kiriSurface_At(&sheet->seen.surface, none.vertex), reach * reach, LookAtLayer, search);
+        probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
+        for (int k = 0; ok && k < 2; ++k) {
+            if (search->found[k].triangle != KIRI_NONE) {
+                int place = search->found[k].height >= 0.0 ? KIRI_FOLD_ABOVE : KIRI_FOLD_BELOW;
+                MarkFold(sheet, &search->found[k]);
+                probes->marks.data[none.vertex] |= (uint8_t)(place << k);
+                ok = kiriArray_Push(&world->memory, &world->pairs.nears, search->found[k]);
             }
         }
     }
     return ok;
 }
 
-static bool LookForFolds(kiriWorld* world, double dt)
+/* Finds where an edge crosses a triangle: the part of the edge, and shares of corners. */
+static bool CrossesAt(kiriVec3 p, kiriVec3 q, const kiriVec3 corner[3], double* part, double share[3])
+{
+    kiriVec3 u = kiriVec3_Sub(corner[1], corner[0]), v = kiriVec3_Sub(corner[2], corner[0]);
+    kiriVec3 normal = kiriVec3_Cross(u, v);
+    double above = kiriVec3_Dot(normal, kiriVec3_Sub(p, corner[0]));
+    double below = kiriVec3_Dot(normal, kiriVec3_Sub(q, corner[0])), size = kiriVec3_Dot(normal, normal);
+    if ((above > 0.0) == (below > 0.0) || !(size > 0.0)) {
+        return false;
+    }
+    *part = above / (above - below);
+    kiriVec3 at = kiriVec3_Sub(kiriVec3_AddScaled(p, *part, kiriVec3_Sub(q, p)), corner[0]);
+    share[1] = kiriVec3_Dot(normal, kiriVec3_Cross(at, v)) / size;
+    share[2] = kiriVec3_Dot(normal, kiriVec3_Cross(u, at)) / size;
+    share[0] = 1.0 - share[1] - share[2];
+    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0;
+}
+
+/* Returns the negated change of the length of the line of crossing with a move of the edge. The line begins in the edge
+   and goes into its triangles. `normal`: of the triangle that is crossed. */
+static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 at, kiriVec3 along, kiriVec3 normal)
+{
+    double slope = kiriVec3_Dot(normal, along);
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    KIRI_ASSERT(edge >= 0 && edge < 3 * sheet->mesh.triangles.count);
+    slope = slope >= 0.0 ? kiriMax(slope, GRAZING) : kiriMin(slope, -GRAZING);
+    for (int n = 0; n < 2; ++n) {
+        int32_t h = n == 0 ? edge : kiriMesh_IsOpen(&sheet->mesh, edge) ? KIRI_NONE : kiriMesh_Twin(&sheet->mesh, edge);
+        if (h != KIRI_NONE) {
+            int32_t apex = kiriMesh_TriangleOf(&sheet->mesh, h)->vertex[(h % 3 + 2) % 3];
+            kiriVec3 in = kiriVec3_Sub(kiriSurface_At(&sheet->seen.surface, apex), at);
+            in = kiriVec3_AddScaled(in, -kiriVec3_Dot(in, along), along);
+            kiriVec3 line = kiriVec3_Normalize(kiriVec3_Cross(normal, kiriVec3_Cross(along, in)));
+            line = kiriVec3_Scale(kiriVec3_Dot(line, in) < 0.0 ? -1.0 : 1.0, line);
+            sum = kiriVec3_Add(sum, kiriVec3_AddScaled(line, -kiriVec3_Dot(along, line) / slope, normal));
+        }
+    }
+    return sum;
+}
+
+static uint64_t KeyOfFold(const kiriSheetData* sheet, int32_t a, int32_t b, int32_t c)
+{
+    uint64_t hash = KIRI_HASH_START;
+    kiriHash_Word(&hash, sheet->frames.data[0].id);
+    kiriHash_Word(&hash, (uint64_t)a);
+    kiriHash_Word(&hash, (uint64_t)b);
+    kiriHash_Word(&hash, (uint64_t)c);
+    return UINT64_C(3) << 60 | hash >> 4;
+}
+
+/* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. */
+static double LookAtCrossing(void* context, int32_t triangle)
+{
+    FoldSearch* search = context;
+    kiriSheetData* sheet = search->sheet;
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* c = &surface->indices.data[3 * (size_t)triangle];
+    kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
+    kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
+    bool areApart = true;
+    for (int k = 0; k < 3; ++k) {
+        corner[k] = kiriSurface_At(surface, c[k]);
+        areApart = areApart && c[k] != search->a && c[k] != search->b;
+    }
+    kiriNear near = { .vertex = search->a, .triangle = triangle };
+    if (!areApart || !CrossesAt(p, q, corner, &touch.upper.share[1], near.share)) {
+        return search->least[0];
+    }
+    kiriVec3 along = kiriVec3_Normalize(kiriVec3_Sub(q, p));
+    kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
+    kiriVec3 at = kiriVec3_AddScaled(p, touch.upper.share[1], kiriVec3_Sub(q, p));
+    kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
+    bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
+    KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
+    sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
+    near.vertex = touch.upper.share[1] < 0.5 ? search->a : search->b;
+    touch.upper.vertex[1] = search->b;
+    touch.upper.share[0] = 1.0 - touch.upper.share[1];
+    touch.lower = TrianglePlace(sheet, triangle, near.share);
+    touch.key = KeyOfFold(sheet, search->a, search->b, triangle);
+    touch.normal = kiriVec3_Normalize(out);
+    touch.distance = FoldDistance(sheet, &near, 0.0);
+    if (touch.distance > 0.0 && kiriVec3_Length(out) > STRAIGHT) {
+        search->ok = search->ok && kiriArray_Push(&search->world->memory, &search->world->pairs.touches, touch);
+    }
+    return search->least[0];
+}
+
+/* Looks at edges near a layer. If both ends are probes on the same sides of their layers, the edge crosses none. */
+static bool TouchTangles(FoldSearch* search)
+{
+    const kiriSheetData* sheet = search->sheet;
+    const kiriSurface* surface = &sheet->seen.surface;
+    const uint8_t* marks = sheet->probes.marks.data;
+    kiriGroup group = { sheet->probes.vertexPiece.data, search->body.piece };
+    for (int32_t h = 0; search->ok && h < 3 * sheet->mesh.triangles.count; ++h) {
+        bool isOpen = kiriMesh_IsOpen(&sheet->mesh, h);
+        search->edge = h;
+        search->a = kiriMesh_Tail(&sheet->mesh, h);
+        search->b = kiriMesh_Tail(&sheet->mesh, kiriEdge_Next(h));
+        uint8_t either = marks[search->a] | marks[search->b], differ = marks[search->a] ^ marks[search->b];
+        bool mayCross = (either & KIRI_FOLD_NEAR) != 0 &&
+                        ((differ & KIRI_FOLD_PLACE) != 0 || (either & KIRI_FOLD_PROBE) == 0);
+        if (mayCross && (isOpen || kiriMesh_Twin(&sheet->mesh, h) < h) && group.ofVertex[search->a] == group.group) {
+            kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b);
+            kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(q, p));
+            search->least[0] = kiriVec3_Dot(half, half);
+            kiriBounds_Nearest(sheet->seen.bounds, surface, group, kiriVec3_Add(p, half), search->least[0],
+                               LookAtCrossing, search);
+        }
+    }
+    return search->ok;
+}
+
+/* Adds touches of probes and their near layers. Probes on the wrong side have none. */
+static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
+{
+    kiriWorld* world = search->world;
+    kiriSheetData* sheet = search->sheet;
+    bool ok = true;
+    for (int32_t i = first; ok && i < world->pairs.nears.count; ++i) {
+        const kiriNear* near = &world->pairs.nears.data[i];
+        KIRI_ASSERT(near->kept > 0.0 && near->triangle != KIRI_NONE);
+        double side = near->height >= 0.0 ? 1.0 : -1.0;
+        bool isAhead = near->height * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) < 0.0;
+        kiriPairTouch touch = { .upper = VertexPlace(sheet, near->vertex), .isFold = true, .touch = KIRI_NONE };
+        touch.lower = TrianglePlace(sheet, near->triangle, near->share);
+        touch.velocity = PlaceVelocity(&touch.lower);
+        touch.key = KeyOfFold(sheet, near->vertex, near->vertex, isAhead);
+        touch.normal = kiriVec3_Scale(side, near->normal);
+        touch.gap = side * near->height;
+        touch.distance = near->kept;
+        bool isTangled = (sheet->probes.marks.data[near->vertex] & KIRI_FOLD_TANGLED) != 0;
+        if (!isTangled && touch.gap - Approach(world, &touch, dt) < (1.0 + MARGIN) * touch.distance) {
+            RankTouch(&touch, touch.distance);
+            ok = kiriArray_Push(&world->memory, &world->pairs.touches, touch);
+        }
+    }
+    return ok;
+}
+
+static bool TouchFold(kiriWorld* world, kiriSheetData* sheet, int32_t piece, double dt)
+{
+    FoldSearch search = { .world = world, .sheet = sheet, .body = { .sheet = sheet, .piece = piece }, .ok = true };
+    int32_t first = world->pairs.nears.count;
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    KIRI_EACH(const int32_t, at, frames) {
+        const kiriFrameData* frame = &sheet->frames.data[*at];
+        search.body.mass += frame->mass;
+        search.body.momentum = kiriVec3_AddScaled(search.body.momentum, frame->mass, frame->velocity);
+    }
+    return FindLayers(&search, dt) && TouchTangles(&search) && TouchLayers(&search, first, dt);
+}
+
+/* Prepares a sheet with a piece that folds. If no piece folds, probes become stale. */
+static bool BeginFolds(kiriSheetData* sheet)
+{
+    bool folded = sheet->probes.folds;
+    sheet->probes.folds = false;
+    for (int32_t p = 0; MayFold(sheet) && p < sheet->layout.pieces.count; ++p) {
+        sheet->probes.folds = sheet->probes.folds || Folds(sheet, p);
+    }
+    sheet->probes.isFresh &= folded || TakesPart(sheet);
+    if (!sheet->probes.folds) {
+        return true;
+    }
+    if (!kiriProbes_Update(sheet) || !UpdateBounds(sheet) ||
+        !kiriArray_Resize(sheet->memory, &sheet->probes.marks, sheet->probes.vertexPiece.count)) {
+        return false;
+    }
+    KIRI_ASSERT(sheet->probes.marks.count == sheet->seen.surface.vertexCount);
+    memset(sheet->probes.marks.data, 0, (size_t)sheet->probes.marks.count);
+    kiriSurface_NeedNormals(&sheet->seen.surface);
+    return true;
+}
+
+static bool TouchFolds(kiriWorld* world, double dt)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (!sheet->rest.asleep) {
-            sheet->probes.folds = false;
-            for (int32_t p = 0; MayFold(sheet) && p < sheet->layout.pieces.count; ++p) {
-                sheet->probes.folds = sheet->probes.folds || Folds(sheet, p);
+            ok = BeginFolds(sheet);
+            for (int32_t p = 0; ok && sheet->probes.folds && p < sheet->layout.pieces.count; ++p) {
+                ok = !Folds(sheet, p) || TouchFold(world, sheet, p, dt);
             }
-            sheet->probes.isFresh &= sheet->probes.folds || TakesPart(sheet);
-            ok = !sheet->probes.folds || LookAtFolds(world, sheet, dt);
         }
     }
     return ok;
@@ -1126,8 +1281,8 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return (!AreSeveral(world) || LookForPairs(world, dt)) && LookForFolds(world, dt) &&
-           KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt);
+    return (!AreSeveral(world) || LookForPairs(world, dt)) &&
+           KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
 }
 
 /* ---- Sleep ---- */

@@ -22,7 +22,7 @@ KIRI_TABLE(PairTable, kiriTouchingPair, {
 KIRI_TABLE(PairsTable, kiriPairs, {
     KIRI_PARTS(pairs, PairTable),
     KIRI_UNHASHED,
-    KIRI_ROOMS(next, found, bodies, order, frameBodies, nears, parents, calms),
+    KIRI_ROOMS(next, found, bodies, order, nears, parents, calms),
     KIRI_ROOMS(touches),
 })
 

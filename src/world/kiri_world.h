@@ -13,8 +13,7 @@ KIRI_C_BEGIN
 typedef struct kiriBody {
     kiriSheetData* sheet;
     int32_t piece;
-    int32_t frame; /* the body is the region of this frame; KIRI_NONE: the whole piece */
-    kiriFrame id; /* id of the frame, or of the lowest one of the piece; identifies the body from tick to tick */
+    kiriFrame id; /* of its lowest frame; identifies the body from tick to tick */
     kiriBox box;
     double speed;      /* m/s: of its fastest probe */
     double stir;       /* m/s: of its fastest probe, relative to its mean velocity */
@@ -32,6 +31,7 @@ typedef struct kiriNear {
     double share[3];     /* barycentric coordinates in the triangle */
     kiriVec3 normal;     /* of the triangle; its sign follows from the order of corners in the rest plane */
     double height;       /* m: of the probe above the triangle, along the normal */
+    double kept;         /* m: folds only: the distance that they keep */
 } kiriNear;
 
 /* Two pieces near each other. */
@@ -90,9 +90,8 @@ typedef struct kiriIslands {
 typedef struct kiriPairs {
     kiriTouchingPairs pairs, next; /* of this tick, and found for the coming tick; sorted by ids */
     kiriTouchingPairs found;       /* unsorted */
-    KIRI_ARRAY(kiriBody) bodies;   /* pieces; then regions of pieces that fold */
+    KIRI_ARRAY(kiriBody) bodies;   /* pieces */
     kiriIndices order; /* of bodies, by the lower x of their box */
-    kiriIndices frameBodies; /* per frame of a sheet that folds: its body, or KIRI_NONE */
     KIRI_ARRAY(kiriNear) nears;
     kiriIndices parents;      /* union-find forest of awake pieces that touch */
     kiriReals calms;          /* s, per awake piece: in a root, of the least calm piece of its tree */
