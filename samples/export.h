@@ -1,4 +1,4 @@
-/* What was cut, as a drawing: SVG or FOLD, which import.h reads again. */
+/* Borders and cuts of sheets as a drawing: SVG or FOLD, which import.h reads again. */
 #ifndef EXPORT_H
 #define EXPORT_H
 

@@ -148,7 +148,7 @@ void Import_AddEllipse(Import* drawing, Affine affine, const double center[2], c
     double stretch = hypot(hypot(m[0], m[1]), hypot(m[2], m[3])),
            radius = fmax(radii[0], radii[1]) * stretch * drawing->scale;
     double steps = ceil(fabs(sweep) * sqrt(fmax(radius / drawing->tolerance, 4.0) / 8.0));
-    int32_t count = steps < IMPORT_MOST_POINTS ? (int32_t)fmax(steps, 1.0) : IMPORT_MOST_POINTS; /* also NaN */
+    int32_t count = steps < IMPORT_MOST_STEPS ? (int32_t)fmax(steps, 1.0) : IMPORT_MOST_STEPS; /* also NaN */
     for (int32_t i = 1; i <= count && drawing->error[0] == 0; i++) {
         double angle = from + sweep * i / count;
         double x = center[0] + radii[0] * cos(angle), y = center[1] + radii[1] * sin(angle);
@@ -169,7 +169,7 @@ void Import_AddBezier(Import* drawing, Affine affine, const double (*points)[2],
     }
     /* Even steps of the parameter: the second derivative is at most degree (degree - 1) bend. */
     double steps = ceil(sqrt(degree * (degree - 1) * bend * drawing->scale / (8.0 * drawing->tolerance)));
-    int32_t count = steps < IMPORT_MOST_POINTS ? (int32_t)fmax(steps, 1.0) : IMPORT_MOST_POINTS;
+    int32_t count = steps < IMPORT_MOST_STEPS ? (int32_t)fmax(steps, 1.0) : IMPORT_MOST_STEPS;
     for (int32_t i = 1; i <= count && drawing->error[0] == 0; i++) {
         double q[4][2], t = (double)i / count;
         memcpy(q, p, sizeof q);

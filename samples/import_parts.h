@@ -6,7 +6,8 @@
 
 #include <stddef.h>
 
-enum { IMPORT_MOST_POINTS = 4000000, IMPORT_MOST_DEPTH = 64 };
+/* A circle of 1 km within 0.02 mm has 16000 steps. */
+enum { IMPORT_MOST_POINTS = 4000000, IMPORT_MOST_STEPS = 20000, IMPORT_MOST_DEPTH = 64 };
 
 /* Part of the text. */
 typedef struct Span {

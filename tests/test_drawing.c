@@ -608,7 +608,7 @@ static void TestDamaged(void** state)
     };
     static const char letters[] = "<>/='\"{}[],.0123456789eE-+MLHVCSQTAZmlz#% \n";
     int fine = 0;
-    for (uint32_t run = 0; run < 6000; run++) {
+    for (uint32_t run = 0; run < 2000; run++) {
         static char text[2000];
         uint32_t seed = run + 1;
         const char* file = files[run % 3];
@@ -646,7 +646,7 @@ static void TestDamaged(void** state)
         }
         free(exact);
     }
-    assert_in_range(fine, 1000, 5900);
+    assert_in_range(fine, 300, 1950);
 }
 
 static int FreeDrawing(void** state)
