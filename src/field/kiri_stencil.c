@@ -202,7 +202,9 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
             break;
         }
     }
-    memmove(&steps[k + 1], &steps[k], sizeof(*steps) * (size_t)(stencil->steps.count++ - k));
+    for (int32_t at = stencil->steps.count++; at > k; --at) {
+        steps[at] = steps[at - 1];
+    }
     steps[k] = step;
 }
 
@@ -307,12 +309,10 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
         !kiriArray_Resize(memory, &stencil->values, count)) {
         return false;
     }
+    memset(stencil->weights.data, 0, sizeof(double) * (size_t)stencil->weights.count);
     KIRI_EACH_INDEX(k, stencil->steps) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
         double *weights = stencil->weights.data + (size_t)k * (size_t)count, sum = kiriShape_Sum(shape, span);
-        for (int32_t i = 0; i < count; ++i) {
-            weights[i] = 0.0;
-        }
         KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Raw(&shape->weights.data[w]) / sum;
