@@ -108,6 +108,19 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
     }
 }
 
+bool kiriSort_Order(kiriMemory* memory, kiriIndices* order, int32_t count, kiriBeforeFn* before,
+                    const void* context)
+{
+    if (!kiriArray_Resize(memory, order, count)) {
+        return false;
+    }
+    KIRI_EACH_INDEX(i, *order) {
+        order->data[i] = i;
+    }
+    kiriSort(order->data, count, before, context);
+    return true;
+}
+
 enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
 
 /* Sorts by one digit. Stable. */

@@ -103,6 +103,10 @@ typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
 /* Sorts in place, without memory. `before` null: by the items themselves. */
 void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
 
+/* Fills an array with the indices from 0 to count - 1 and sorts them. */
+bool kiriSort_Order(kiriMemory* memory, kiriIndices* order, int32_t count, kiriBeforeFn* before,
+                    const void* context);
+
 /* Sorts items of 0 and above, ascending, in linear time. `room` has room for as many. */
 void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
 

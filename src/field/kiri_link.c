@@ -528,7 +528,7 @@ static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
     double start = s->ahead * AlongLine(&s->line, from), extent = s->u->mesh->step * KIRI_LATTICE;
     double limit = FindFirstLimit(s), goal = kiriMin(limit, start + 2.0 * extent);
     SetEnd(end, KIRI_END_CORNER, PointOn(&s->line, s->ahead * limit));
-    for (int32_t k = 0; k < s->near.count && end->region[KIRI_CORNER_REGIONS - 1] == KIRI_NONE; ++k) {
+    KIRI_EACH_INDEX_WHILE(end->region[KIRI_CORNER_REGIONS - 1] == KIRI_NONE, k, s->near) {
         if (k < 2 || (LimitBy(s, k) <= limit + s->least && IsSiteSeen(s, k))) {
             AddEndRegion(end, s->near.region[k]);
         }
@@ -779,7 +779,7 @@ static bool FindReaches(EndSearch* s)
 static bool IsStraightReach(const EndSearch* s)
 {
     bool isStraight = kiriVec2_Distance(s->reach[0].from, s->reach[1].from) > s->least;
-    for (int32_t k = 0; isStraight && k < s->near.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(isStraight, k, s->near) {
         isStraight = s->reach[k].state != REACH_KNOWN || !(s->reach[k].behind > 0.0);
     }
     return isStraight;
@@ -1195,7 +1195,7 @@ static bool MakeShortLinks(const LinkUpdate* u)
 {
     int32_t first = u->work->made.count;
     bool ok = true;
-    for (int32_t k = 0; ok && k < u->links->next.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, u->links->next) {
         const kiriLink* link = &u->links->next.data[k];
         const kiriLinkEnds* ends = &u->work->nextEnds.data[k];
         for (int e = 0; ok && !ends->isShort && e < 4; ++e) {
@@ -1386,7 +1386,7 @@ static bool MakeCorners(const LinkUpdate* u)
     int32_t old = 0;
     bool ok = true;
     links->nextCorners.count = 0;
-    for (int32_t k = 0; ok && k < links->next.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, links->next) {
         if (!AreCornersKept(u, k)) {
             ok = AddLinkCorner(u, k, &u->work->nextEnds.data[k].end[0]) &&
                  AddLinkCorner(u, k, &u->work->nextEnds.data[k].end[1]);
@@ -1782,7 +1782,7 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
     bool ok = true;
     kiriLinks_Drop(links);
     links->changed = 0;
-    for (int32_t k = 0; ok && k < links->links.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, links->links) {
         kiriLink link = links->links.data[k];
         kiriLinkEnds ends = work->ends.data[k];
         if (kiriKeep_Has(kept, k)) {

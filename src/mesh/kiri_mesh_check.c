@@ -90,7 +90,7 @@ static bool AreSourceCorners(const kiriMeshData* mesh)
     bool areFine = mesh->sources.count > 0
                        ? 3 * (int64_t)mesh->sources.count == mesh->sourceCorners.count && mesh->sourceBlocks.count == 0
                        : mesh->sourceCorners.count % (3 * KIRI_SOURCES_A_BLOCK) == 0;
-    for (int32_t k = 0; areFine && k < mesh->sourceBlocks.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(areFine, k, mesh->sourceBlocks) {
         areFine = mesh->sourceBlocks.data[k] >= KIRI_NONE && mesh->sourceBlocks.data[k] < count;
     }
     for (int32_t k = 0; areFine && k < mesh->sourceCorners.count; k += 3) {
@@ -122,7 +122,7 @@ static bool AreTriangles(const kiriMeshData* mesh)
     int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
     bool areFine = mesh->triangles.count <= KIRI_MOST_TRIANGLES && mesh->originals >= 0 &&
                    mesh->originals <= mesh->triangles.count && (mesh->sources.count == 0 || mesh->originals == 0);
-    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
+    KIRI_EACH_INDEX_WHILE(areFine, t, mesh->triangles) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         const kiriTriangle* triangle = &mesh->triangles.data[t];
@@ -214,7 +214,7 @@ static bool AreFans(const kiriMeshData* mesh)
 {
     int32_t corners = 3 * mesh->triangles.count;
     bool areFine = true;
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
+    KIRI_EACH_INDEX_WHILE(areFine, v, mesh->vertices) {
         Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, true, false };
         TakeFan(&fan, mesh->vertices.data[v].edge);
         areFine = fan.isFine && fan.hasSource;
@@ -239,7 +239,7 @@ static bool AreFolds(const kiriMeshData* mesh)
     }
     for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {
         bool isClaimed = !kiriMesh_IsCrease(mesh, h);
-        for (int32_t f = 0; !isClaimed && f < mesh->folds.count; ++f) {
+        KIRI_EACH_INDEX_WHILE(!isClaimed, f, mesh->folds) {
             isClaimed = kiriFoldLine_Has(&mesh->folds.data[f], kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));
         }
         areFine = isClaimed;
@@ -257,10 +257,10 @@ static void FillSquares(kiriMeshData* mesh, kiriArchive* archive)
     archive->room -= SQUARE_BYTES * CountSquares(squares);
     kiriArchive_Expect(archive, archive->room >= 0);
     archive->isShort |= !archive->isBad && !kiriSquares_Allocate(squares, mesh->memory);
-    for (int32_t v = 0; v < mesh->vertices.count && !kiriArchive_HasFailed(archive); ++v) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), v, mesh->vertices) {
         kiriMesh_ListVertex(mesh, v);
     }
-    for (int32_t t = 0; t < mesh->triangles.count && !kiriArchive_HasFailed(archive); ++t) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), t, mesh->triangles) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         archive->isShort |= !kiriSquares_Insert(squares, mesh->memory, t, c);

@@ -311,7 +311,7 @@ void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int
             squares->freeNode = slot;
         }
     }
-    for (int32_t n = 0; n < squares->nodes.count && kiriKeep_Moves(triangles); ++n) {
+    KIRI_EACH_INDEX_WHILE(kiriKeep_Moves(triangles), n, squares->nodes) {
         nodes[n].triangle = kiriKeep_To(triangles, nodes[n].triangle);
     }
 }

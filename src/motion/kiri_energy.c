@@ -172,7 +172,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             energy->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+    KIRI_EACH_INDEX(k, solver->contacts) {
         energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k]);
     }
 }

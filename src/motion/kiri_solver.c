@@ -443,14 +443,14 @@ bool kiriSolver_ListMoved(kiriSolver* solver)
         return false;
     }
     moved->bodies.count = moved->frames.count = moved->links.count = 0;
-    for (int32_t b = 0; b < bodies->bodies.count; ++b) {
+    KIRI_EACH_INDEX(b, bodies->bodies) {
         const kiriSolverBody* body = &bodies->bodies.data[b];
         if (body->isMoved) {
             KIRI_NEXT(moved->bodies) = b;
-            for (int32_t n = 0; n < body->frames.count; ++n) {
+            KIRI_EACH_INDEX(n, body->frames) {
                 KIRI_NEXT(moved->frames) = bodies->frames.data[body->frames.first + n];
             }
-            for (int32_t n = 0; n < body->links.count; ++n) {
+            KIRI_EACH_INDEX(n, body->links) {
                 KIRI_NEXT(moved->links) = bodies->links.data[body->links.first + n];
             }
         }
@@ -616,7 +616,7 @@ static void TakeLinkState(kiriSolver* solver, const kiriIslandBody* member, int3
 {
     const kiriSystem* sheet = member->sheet;
     kiriSpan links = BodyOfMember(member)->links;
-    for (int32_t k = 0; k < links.count; ++k) {
+    KIRI_EACH_INDEX(k, links) {
         int32_t link = member->solver->bodies.links.data[links.first + k];
         if (hasYields) {
             const kiriPlastic none = { { 0.0, 0.0, 0.0 }, 0.0 };

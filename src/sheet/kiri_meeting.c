@@ -867,7 +867,7 @@ static int64_t VersionOf(const kiriSheetData* sheet)
 {
     const kiriMoved* moved = &sheet->solver->moved;
     bool isSame = moved->isListed && moved->version == sheet->seen.lists;
-    for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX_WHILE(isSame, p, sheet->layout.pieces) {
         isSame = sheet->solver->bodies.bodies.data[p].isMoved || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
     }
     return isSame ? moved->version : 0;
@@ -902,7 +902,7 @@ static kiriBox BoxOfDetail(const kiriSurface* surface)
 {
     const kiriDetail* detail = &surface->detail;
     kiriBox box = KIRI_EMPTY_BOX;
-    for (int32_t k = 0; k < detail->vertices.count; ++k) {
+    KIRI_EACH_INDEX(k, detail->vertices) {
         kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * detail->vertices.data[k].vertex));
     }
     box.lower = kiriVec3_Add(box.lower, surface->middle);

@@ -487,7 +487,7 @@ static bool IsOnLattice(kiriLatticePoint at)
 static bool AreCuts(const kiriSheetData* sheet)
 {
     bool areFine = true;
-    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
+    KIRI_EACH_INDEX_WHILE(areFine, c, sheet->cuts) {
         const kiriCutData* cut = sheet->cuts.data[c];
         KIRI_ASSERT(cut->sheet == sheet && cut->index == c);
         const kiriBladeTip* blade = &cut->tip.blade;
@@ -517,7 +517,7 @@ static bool ArePieces(const kiriLayout* layout)
 {
     bool areFine = true, isLeft = false;
     int32_t pieces = 0;
-    for (int32_t f = 0; areFine && f < layout->framePiece.count; ++f) {
+    KIRI_EACH_INDEX_WHILE(areFine, f, layout->framePiece) {
         int32_t piece = layout->framePiece.data[f];
         areFine = piece <= pieces && (piece < pieces || layout->pieces.data[piece].frame == f);
         pieces += piece == pieces;

@@ -126,7 +126,7 @@ static bool ListChosen(kiriSheetData* sheet, const int32_t* ofVertex, int32_t gr
     }
     int32_t *first = row->first.data, count = 0;
     memset(first, 0, sizeof(int32_t) * (size_t)(groups + 2));
-    for (int32_t v = 0; v < probes->isChosen.count; ++v) {
+    KIRI_EACH_INDEX(v, probes->isChosen) {
         first[ofVertex[v] + 2] += probes->isChosen.data[v];
         count += probes->isChosen.data[v];
     }
@@ -136,7 +136,7 @@ static bool ListChosen(kiriSheetData* sheet, const int32_t* ofVertex, int32_t gr
     if (!kiriArray_Resize(sheet->memory, &row->items, count)) {
         return false;
     }
-    for (int32_t v = 0; v < probes->isChosen.count; ++v) {
+    KIRI_EACH_INDEX(v, probes->isChosen) {
         if (probes->isChosen.data[v]) {
             row->items.data[first[ofVertex[v] + 1]++] = v;
         }
@@ -951,7 +951,7 @@ void kiriTouches_Tell(kiriSheetData* sheet, double dt)
     kiriTouches* touches = &sheet->touches;
     KIRI_ASSERT(touches->nextTold.capacity >= sheet->contacts.count);
     touches->nextTold.count = sheet->contacts.count;
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->contacts) {
         TellOne(sheet, i, dt, &touches->nextTold.data[i]);
     }
     kiriArrayHeader told = kiriArray_GetHeader(&touches->told);

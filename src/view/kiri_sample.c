@@ -405,7 +405,7 @@ static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSour
     mean->frames.count = mean->values.count = 0;
     KIRI_EACH_WHILE(ok, const int32_t, vertex, refresh->joined) {
         ok = WeighSample(refresh, source, square, *vertex);
-        for (int32_t k = 0; ok && k < refresh->stencil.frames.count; ++k) {
+        KIRI_EACH_INDEX_WHILE(ok, k, refresh->stencil.frames) {
             ok = AddToMean(mean, source->memory, refresh->stencil.frames.data[k],
                            refresh->stencil.values.data[k] / refresh->joined.count);
         }

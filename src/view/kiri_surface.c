@@ -694,7 +694,7 @@ KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
 bool kiriFades_AreSound(const kiriFades* fades, int32_t samples)
 {
     bool areFine = true;
-    for (int32_t k = 0; areFine && k < fades->fading.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(areFine, k, fades->fading) {
         int32_t before = k > 0 ? fades->fading.data[k - 1].sample : KIRI_NONE, sample = fades->fading.data[k].sample;
         areFine = before < sample && sample < samples && fades->fading.data[k].left > 0.0;
     }

@@ -430,7 +430,7 @@ kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* p
     KIRI_READS(world);
     KIRI_CHECK_LIST(pins);
     KIRI_FIND(sheet);
-    for (int32_t i = 0; i < found->pins.count && i < capacity; ++i) {
+    KIRI_EACH_INDEX_WHILE(i < capacity, i, found->pins) {
         pins[i] = found->pins.data[i].id;
     }
     *count = found->pins.count;
@@ -519,7 +519,7 @@ kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t c
 {
     KIRI_READS(world);
     KIRI_CHECK_LIST(seams);
-    for (int32_t i = 0; i < world->seams.count && i < capacity; ++i) {
+    KIRI_EACH_INDEX_WHILE(i < capacity, i, world->seams) {
         seams[i] = world->seams.data[i]->id;
     }
     *count = world->seams.count;

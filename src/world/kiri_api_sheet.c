@@ -696,13 +696,13 @@ static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
 {
     const kiriMat3 axes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     bool fits = true;
-    for (int32_t i = 0; fits && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(fits, i, world->sheets) {
         fits = FitsCarried(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));
     }
-    for (int32_t i = 0; fits && i < world->obstacles.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(fits, i, world->obstacles) {
         fits = kiriVec3_FitsFloats(kiriVec3_Sub(world->obstacles.data[i]->position, origin));
     }
-    for (int32_t i = 0; fits && i < world->blades.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(fits, i, world->blades) {
         const kiriBladeData* blade = world->blades.data[i];
         fits = kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[0], origin)) &&
                kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[1], origin));

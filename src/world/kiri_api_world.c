@@ -262,7 +262,7 @@ kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_
 {
     KIRI_READS(world);
     KIRI_CHECK_LIST(sheets);
-    for (int32_t i = 0; i < world->sheets.count && i < capacity; ++i) {
+    KIRI_EACH_INDEX_WHILE(i < capacity, i, world->sheets) {
         sheets[i] = world->sheets.data[i]->id;
     }
     *count = world->sheets.count;

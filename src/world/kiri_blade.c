@@ -339,7 +339,7 @@ static bool LeadAlong(BladeWork* work, Track* track)
 {
     bool ok = true;
     kiriVec2 start = track->rest;
-    for (int32_t i = 0; ok && i < work->path.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, work->path) {
         bool isHere =
             i + 1 < work->path.count && RestDistance(work->path.data[i], start) < SAME * work->snap;
         start = isHere ? start : kiriVec2_Make(1e300, 1e300);
@@ -681,7 +681,7 @@ static bool StepThroughSheet(BladeWork* work)
     work->isMessy = work->crossings + layers > MANY;
     work->joins = !work->isHeld && !work->isMessy;
     ok = ok && kiriArray_Resize(&work->memory, &work->taker, 2 * work->section.lines.count);
-    for (int32_t i = 0; ok && i < work->taker.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, work->taker) {
         work->taker.data[i] = KIRI_NONE;
     }
     for (int pass = 0; pass < 2; ++pass) { /* the ends beside a track, then others */
@@ -695,7 +695,7 @@ static bool StepThroughSheet(BladeWork* work)
         }
     }
     for (int pass = 0; pass < 2; ++pass) { /* lines that a track goes on along, then others */
-        for (int32_t i = 0; ok && i < work->section.lines.count; ++i) {
+        KIRI_EACH_INDEX_WHILE(ok, i, work->section.lines) {
             bool isTaken = work->taker.data[2 * i] != KIRI_NONE || work->taker.data[2 * i + 1] != KIRI_NONE;
             ok = isTaken != (pass == 0) || FollowLine(work, i);
         }
@@ -806,13 +806,13 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
 {
     KIRI_ARRAY(kiriVec2) ends = { 0 };
     bool ok = true;
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         const kiriSheetData* sheet = world->sheets.data[i];
         if (sheet->queue.count == 0 || (blade->sheet != 0 && blade->sheet != sheet->id)) {
             continue;
         }
         ends.count = 0;
-        for (int32_t k = 0; ok && k < sheet->cuts.count; ++k) {
+        KIRI_EACH_INDEX_WHILE(ok, k, sheet->cuts) {
             ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->tip.last);
         }
         KIRI_EACH_WHILE(ok, const kiriQueuedPoint, point, sheet->queue) {
@@ -861,7 +861,7 @@ static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeDa
         }
         work->ticks = i == 0 && blade->isPlaced ? blade->ticks : 0;
         NextStep(work);
-        for (int32_t k = 0; ok && k < world->sheets.count; ++k) {
+        KIRI_EACH_INDEX_WHILE(ok, k, world->sheets) {
             work->sheet = world->sheets.data[k];
             ok = (blade->sheet != 0 && blade->sheet != work->sheet->id) || StepThroughSheet(work);
         }
@@ -900,7 +900,7 @@ static kiriResult ReserveStrokes(kiriWorld* world, const BladeWork* work)
 static bool MakeCuts(kiriWorld* world, BladeWork* work, CutList* made)
 {
     bool ok = true;
-    for (int32_t i = 0; ok && i < work->strokes.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, work->strokes) {
         if (work->strokes.data[i].cut == NULL) {
             kiriCutData* cut = kiriMemory_AllocZeroed(&world->memory, sizeof(*cut));
             ok = cut != NULL && kiriArray_Push(&work->memory, made, cut);

@@ -222,16 +222,10 @@ static bool ComesFirst(const void* context, int32_t a, int32_t b)
 /* Sorts obstacles by the lower x of their boxes, extended by twice their motion in the tick. Fails on out of memory. */
 static bool SortObstacles(kiriWorld* world, double dt)
 {
-    kiriIndices* order = &world->obstacleOrder;
-    if (!kiriArray_Resize(&world->memory, order, world->obstacles.count)) {
-        return false;
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
+        kiriObstacle_Bound(obstacle, 2.0 * dt);
     }
-    KIRI_EACH_INDEX(i, *order) {
-        kiriObstacle_Bound(world->obstacles.data[i], 2.0 * dt);
-        order->data[i] = i;
-    }
-    kiriSort(order->data, order->count, ComesFirst, world);
-    return true;
+    return kiriSort_Order(&world->memory, &world->obstacleOrder, world->obstacles.count, ComesFirst, world);
 }
 
 /* The space in which a sheet may touch obstacles. */
@@ -584,13 +578,10 @@ static bool JoinByBodies(kiriWorld* world)
     KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         ok = ListMeets(world, i);
     }
-    if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
+    if (!ok ||
+        !kiriSort_Order(&world->memory, &moves->order, moves->meets.count, HasLowerNumber, moves->meets.data)) {
         return false;
     }
-    KIRI_EACH_INDEX(k, moves->order) {
-        moves->order.data[k] = k;
-    }
-    kiriSort(moves->order.data, moves->order.count, HasLowerNumber, moves->meets.data);
     for (int32_t k = 1; k < moves->order.count; ++k) {
         const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
         if (a->number == b->number) {

@@ -219,10 +219,10 @@ static void RankTouch(kiriPairTouch* touch, double distance)
 
 static void ForgetTouches(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
+    KIRI_EACH_INDEX(i, world->pairs.bodies) {
         kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
         kiriIndexSpan span = ProbesOf(&world->pairs.bodies.data[i]);
-        for (int32_t k = 0; k < span.count; ++k) {
+        KIRI_EACH_INDEX(k, span) {
             probes->touch.data[2 * (size_t)span.data[k]] = KIRI_NONE;
             probes->touch.data[2 * (size_t)span.data[k] + 1] = KIRI_NONE;
         }
@@ -326,7 +326,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     ListAwake(world);
-    for (int32_t i = 0; i < pairs->pairs.count; ++i) {
+    KIRI_EACH_INDEX(i, pairs->pairs) {
         const kiriTouchingPair* pair = &pairs->pairs.data[i];
         const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
         bool areThere = upper != NULL && lower != NULL && upper != lower;
@@ -346,9 +346,9 @@ void kiriPairs_JoinCalm(kiriWorld* world)
         }
     }
     for (int isGiven = 0; isGiven < 2; ++isGiven) {
-        for (int32_t k = 0; k < world->active.count; ++k) {
+        KIRI_EACH_INDEX(k, world->active) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
-            for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+            KIRI_EACH_INDEX(p, sheet->layout.pieces) {
                 kiriPiece* piece = &sheet->layout.pieces.data[p];
                 if (kiriPiece_IsAwake(piece)) {
                     double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];
@@ -457,7 +457,7 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
 {
     bool ok = true;
     memset(waking, 0, sizeof(*waking));
-    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (TakesPart(sheet) && !sheet->rest.asleep) {
             ok = kiriProbes_Update(sheet);
@@ -475,7 +475,7 @@ static bool AreSeveral(const kiriWorld* world)
 {
     kiriSheetData* last = NULL;
     int32_t count = 0;
-    for (int32_t i = 0; i < world->sheets.count && count < 2; ++i) {
+    KIRI_EACH_INDEX_WHILE(count < 2, i, world->sheets) {
         kiriSheetData* sheet = world->sheets.data[i];
         count += TakesPart(sheet) ? sheet->layout.pieces.count : 0;
         last = TakesPart(sheet) ? sheet : last;
@@ -501,7 +501,7 @@ static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kir
 static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
 {
     bool ok = true;
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         kiriSheetData* sheet = world->sheets.data[i];
         if (!TakesPart(sheet)) {
             continue;
@@ -949,10 +949,10 @@ static bool Folds(const kiriSheetData* sheet, int32_t piece)
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     bool folds = false;
-    for (int32_t k = 0; k < frames.count; ++k) {
+    KIRI_EACH_INDEX(k, frames) {
         sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
     }
-    for (int32_t k = 0; k < frames.count && !folds; ++k) {
+    KIRI_EACH_INDEX_WHILE(!folds, k, frames) {
         folds = kiriVec3_Dot(sum, sheet->frames.data[frames.data[k]].A.d) < FOLDED * kiriVec3_Length(sum);
     }
     return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]) && !sheet->layout.pieces.data[piece].isGone;
@@ -1216,7 +1216,7 @@ static bool BeginFolds(kiriSheetData* sheet)
 static bool TouchFolds(kiriWorld* world, double dt)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (!sheet->rest.asleep) {
             ok = BeginFolds(sheet);
@@ -1239,7 +1239,7 @@ static bool KeepSleeping(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     bool ok = true;
-    for (int32_t i = 0; ok && i < pairs->pairs.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, pairs->pairs) {
         kiriTouchingPair pair = pairs->pairs.data[i];
         pair.nears.count = 0;
         ok = !IsPairAsleep(world, pair.upper) || !IsPairAsleep(world, pair.lower) ||
@@ -1261,11 +1261,11 @@ static bool SortFound(kiriWorld* world)
         !kiriArray_Resize(&world->memory, &pairs->next, pairs->found.count)) {
         return false;
     }
-    for (int32_t i = 0; i < pairs->found.count; ++i) {
+    KIRI_EACH_INDEX(i, pairs->found) {
         pairs->order.data[i] = i;
     }
     kiriSort(pairs->order.data, pairs->order.count, IsBefore, pairs->found.data);
-    for (int32_t i = 0; i < pairs->found.count; ++i) {
+    KIRI_EACH_INDEX(i, pairs->found) {
         pairs->next.data[i] = pairs->found.data[pairs->order.data[i]];
     }
     return true;
