@@ -411,8 +411,7 @@ static void TakeCurl(const kiriCurl* curl, double* bending, kiriStrainRow* row)
     *bending *= factor;
 }
 
-/* Returns D of a plate, N m. */
-static double PlateStiffness(const kiriMaterial* material)
+double kiriStrain_PlateStiffness(const kiriMaterial* material)
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio;
     return (double)material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
@@ -483,7 +482,8 @@ double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const 
     MeasureFold(link, frames, poses, strain, NULL);
     kiriStrain_Stiffness(link, material, stiffness);
     double moment = stiffness[KIRI_BENDING] * (strain[KIRI_BENDING] - offset);
-    return strain[KIRI_BENDING] + link->rest - moment / (PlateStiffness(material) * link->width / link->length);
+    double bending = kiriStrain_PlateStiffness(material) * link->width / link->length;
+    return strain[KIRI_BENDING] + link->rest - moment / bending;
 }
 
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
@@ -571,7 +571,8 @@ double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
 static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
 {
     double nu = (double)material->poissonsRatio, W = link->width, l = link->length;
-    double membrane = (double)material->youngsModulus * material->thickness / l, bending = PlateStiffness(material) / l;
+    double membrane = (double)material->youngsModulus * material->thickness / l;
+    double bending = kiriStrain_PlateStiffness(material) / l;
     double share = link->hinge / (bending + link->hinge);
     double stiff = share * share / (HALF_HINGE * HALF_HINGE), loose = 1.0 / (1.0 + stiff * stiff);
     stiffness[KIRI_STRETCH] = membrane * W;

@@ -109,6 +109,9 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
 /* Returns the width of a strip, clamped at both ends, that has the same stiffness against a normal gap. */
 double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio);
 
+/* Returns D of a plate, N m. */
+double kiriStrain_PlateStiffness(const kiriMaterial* material);
+
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
 
 /* Traces of strain and curvature where three or four regions meet. They couple the links between rigid frames. The

@@ -149,9 +149,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 static double SpacingFor(const kiriSheetDef* def, double longer)
 {
     const kiriMaterial* m = &def->material;
-    double h = m->thickness, nu = m->poissonsRatio;
-    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
-    double cube = stiffness / (m->density * h * 9.81), root = kiriMax(cube, 1.0);
+    double cube = kiriStrain_PlateStiffness(m) / (m->density * (double)m->thickness * 9.81), root = kiriMax(cube, 1.0);
     for (int i = 0; i < 200; ++i) { /* Newton's iteration from above */
         root = (2.0 * root + cube / (root * root)) / 3.0;
     }

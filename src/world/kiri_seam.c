@@ -311,30 +311,22 @@ void kiriSeams_Wake(const kiriWorld* world, const kiriSeamData* seam)
 
 void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
 {
-    int32_t kept = 0;
     kiriSeams_Wake(world, seam);
-    KIRI_EACH_INDEX(i, world->seams) {
-        if (world->seams.data[i] != seam) {
-            world->seams.data[kept++] = world->seams.data[i];
-        }
-    }
-    KIRI_ASSERT(kept == world->seams.count - 1 && seam->id != 0);
-    world->seams.count = kept;
+    KIRI_KEEP_IF(kiriSeamData*, item, world->seams, *item != seam);
     kiriPool_Remove(&world->seamIds, seam->id);
     FreeSeam(world, seam);
 }
 
-/* Returns true if a stitch ends. */
-typedef bool EndsFn(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch);
-
-/* Removes the stitches that end, and wakes what they held. Returns their number. */
-static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, EndsFn* ends)
+/* Removes the stitches whose sheets are gone or whose force for their length is above a limit, and wakes what they held.
+   Returns their number. */
+static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, double limit)
 {
     int32_t kept = 0, count = seam->stitches.count;
     KIRI_ASSERT(seam->rows.count == 0 || seam->rows.count == count);
     KIRI_EACH_INDEX(k, seam->stitches) {
         const kiriStitchData stitch = seam->stitches.data[k];
-        if (ends(world, seam, &stitch)) {
+        if (SlotOf(world, &stitch, 0) == NULL || SlotOf(world, &stitch, 1) == NULL ||
+            kiriVec3_Length(stitch.force) > limit * stitch.length) {
             WakeEnds(world, &stitch);
         } else {
             seam->stitches.data[kept++] = stitch;
@@ -345,17 +337,11 @@ static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, EndsFn* 
     return count - kept;
 }
 
-static bool IsStale(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch)
-{
-    (void)seam;
-    return SlotOf(world, stitch, 0) == NULL || SlotOf(world, stitch, 1) == NULL;
-}
-
 void kiriSeams_DropStale(kiriWorld* world)
 {
     for (int32_t i = world->seams.count - 1; i >= 0; --i) {
         kiriSeamData* seam = world->seams.data[i];
-        if (DropStitches(world, seam, IsStale) > 0 && seam->stitches.count == 0) {
+        if (DropStitches(world, seam, HUGE_VAL) > 0 && seam->stitches.count == 0) {
             kiriSeams_Remove(world, seam);
         }
     }
@@ -487,12 +473,6 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
     return row->solvers[0] != NULL || row->solvers[1] != NULL;
 }
 
-static bool IsTorn(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch)
-{
-    (void)world;
-    return kiriVec3_Length(stitch->force) > seam->breakForce * stitch->length;
-}
-
 void kiriSeams_End(kiriWorld* world, double dt)
 {
     for (int32_t i = world->seams.count - 1; i >= 0; --i) {
@@ -505,7 +485,7 @@ void kiriSeams_End(kiriWorld* world, double dt)
         }
         seam->rows.count = 0;
         const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[0], 0);
-        if (seam->breakForce > 0.0 && DropStitches(world, seam, IsTorn) > 0) {
+        if (seam->breakForce > 0.0 && DropStitches(world, seam, seam->breakForce) > 0) {
             kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_SEAM_BROKE, sheet);
             event->seam = seam->id;
             event->stitches = seam->stitches.count;
