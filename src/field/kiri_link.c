@@ -1221,30 +1221,21 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     return IsFaceBefore(u->grid, x->face, y->face);
 }
 
+/* Orders the links that were made, and reserves room for them and the kept ones. */
+static bool OrderMade(const LinkUpdate* u, int32_t kept, kiriBeforeFn* before)
+{
+    int64_t most = (int64_t)kept + u->work->made.count;
+    return kiriSort_Order(u->memory, &u->work->order, u->work->made.count, before, u) &&
+           kiriArray_Reserve(u->memory, &u->links->next, most) &&
+           kiriArray_Reserve(u->memory, &u->work->nextEnds, most) &&
+           kiriArray_Reserve(u->memory, &u->links->was, most);
+}
+
 static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnds* ends, int32_t was)
 {
     KIRI_NEXT(u->links->was) = was;
     KIRI_NEXT(u->links->next) = *link;
     KIRI_NEXT(u->work->nextEnds) = *ends;
-}
-
-/* Sorts this number of items: writes their indices to `order`. */
-static bool SortItems(const LinkUpdate* u, int32_t count, kiriBeforeFn* before, const void* context)
-{
-    if (!kiriArray_Resize(u->memory, &u->work->order, count)) {
-        return false;
-    }
-    for (int32_t k = 0; k < count; ++k) {
-        u->work->order.data[k] = k;
-    }
-    kiriSort(u->work->order.data, count, before, context);
-    return true;
-}
-
-static bool ReserveNext(const LinkUpdate* u, int64_t most)
-{
-    return kiriArray_Reserve(u->memory, &u->links->next, most) &&
-           kiriArray_Reserve(u->memory, &u->work->nextEnds, most) && kiriArray_Reserve(u->memory, &u->links->was, most);
 }
 
 /* Sorts the links that were made by their keys, and merges them with the kept ones; no pair of regions has both. Counts
@@ -1254,8 +1245,7 @@ static bool MergeLinks(const LinkUpdate* u)
     kiriLinks* links = u->links;
     kiriLinkWork* work = u->work;
     int32_t old = 0;
-    int64_t most = (int64_t)links->links.count + work->made.count;
-    if (!ReserveNext(u, most) || !SortItems(u, work->made.count, IsMadeBefore, u)) {
+    if (!OrderMade(u, links->links.count, IsMadeBefore)) {
         return false;
     }
     links->next.count = work->nextEnds.count = links->was.count = links->changed = 0;
@@ -1538,7 +1528,7 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
         }
     }
     work->due += work->parts.count;
-    if (!SortItems(u, work->parts.count, IsPartBefore, work->parts.data)) {
+    if (!kiriSort_Order(u->memory, &work->order, work->parts.count, IsPartBefore, work->parts.data)) {
         return false;
     }
     for (int32_t first = 0, end; first < work->order.count; first = end) {
@@ -1558,9 +1548,9 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
 
 static bool IsFoldBefore(const void* context, int32_t a, int32_t b)
 {
-    const kiriNewLink *x = (const kiriNewLink*)context + a, *y = (const kiriNewLink*)context + b;
-    bool isOfPair = x->link.i == y->link.i && x->link.j == y->link.j;
-    return isOfPair ? a < b : kiriLink_IsBefore(&x->link, &y->link);
+    const kiriNewLink* made = ((const LinkUpdate*)context)->work->made.data;
+    const kiriLink *x = &made[a].link, *y = &made[b].link;
+    return x->i == y->i && x->j == y->j ? a < b : kiriLink_IsBefore(x, y);
 }
 
 /* Appends the links of folds to the others. */
@@ -1570,8 +1560,7 @@ static bool AppendFoldLinks(const LinkUpdate* u)
     kiriLinkWork* work = u->work;
     int32_t old = 0;
     KIRI_ASSERT(links->next.count == work->nextEnds.count && links->next.count == links->was.count);
-    int64_t most = (int64_t)links->next.count + work->made.count;
-    if (!ReserveNext(u, most) || !SortItems(u, work->made.count, IsFoldBefore, work->made.data)) {
+    if (!OrderMade(u, links->next.count, IsFoldBefore)) {
         return false;
     }
     KIRI_EACH_INDEX(k, work->order) {

@@ -262,9 +262,9 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     return KIRI_OK;
 }
 
-/* Ends a call with the result of kiriParts_Detach or kiriParts_Destroy. */
-static kiriResult EndParts(kiriCall* call, kiriResult result)
+static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count, kiriSheet* detached)
 {
+    kiriResult result = kiriParts_TakeOut(call->world, frames, count, detached);
     return kiriCall_End(call->world, call, call->function, result,
                         result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL);
 }
@@ -272,25 +272,25 @@ static kiriResult EndParts(kiriCall* call, kiriResult result)
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
 {
     KIRI_CHANGES(Frame_DetachPiece, &frame, detached);
-    return EndParts(call, kiriParts_Detach(world, &frame, 1, detached));
+    return TakeOut(call, &frame, 1, detached);
 }
 
 kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
 {
     KIRI_CHANGES(Frame_DestroyPiece, &frame);
-    return EndParts(call, kiriParts_Destroy(world, &frame, 1));
+    return TakeOut(call, &frame, 1, NULL);
 }
 
 kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
 {
     KIRI_CHANGES(World_DetachPieces, frames, &count, detached);
-    return EndParts(call, kiriParts_Detach(world, frames, count, detached));
+    return TakeOut(call, frames, count, detached);
 }
 
 kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
 {
     KIRI_CHANGES(World_DestroyPieces, frames, &count);
-    return EndParts(call, kiriParts_Destroy(world, frames, count));
+    return TakeOut(call, frames, count, NULL);
 }
 
 kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)

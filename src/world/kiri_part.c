@@ -132,15 +132,6 @@ static bool LeavesSome(const Parting* parting)
     return all;
 }
 
-static kiriResult ResultOf(const Parting* parting)
-{
-    kiriResult result = KIRI_OK;
-    KIRI_EACH(const PartSource, source, parting->sources) {
-        result = source->waits ? KIRI_PENDING : result;
-    }
-    return result;
-}
-
 /* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
 /* Defers sheets whose pieces cost more than the remaining samples of a tick. Sheets with a cut in progress, or with
@@ -156,15 +147,6 @@ static void ChooseWhatWaits(Parting* parting, bool makesSheets)
         source->waits = !parting->isInTick &&
                         (isBusy || (makesSheets && (source->samples > left || kiriParts_AreDue(sheet))));
         left -= source->waits ? 0.0 : source->samples;
-    }
-}
-
-/* Charges the cost of a call to the coming ticks. */
-static void Charge(const Parting* parting)
-{
-    kiriWorld* world = parting->world;
-    KIRI_EACH_WHILE(world->budget.samples > 0 && !parting->isInTick, const PartSource, source, parting->sources) {
-        world->samplesDue += source->waits ? 0 : (int64_t)source->samples;
     }
 }
 
@@ -209,18 +191,25 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-static void CommitSources(Parting* parting)
+/* Charges the cost of a call to the coming ticks. KIRI_PENDING: some sheets wait. */
+static kiriResult CommitSources(Parting* parting)
 {
+    kiriWorld* world = parting->world;
+    kiriResult result = KIRI_OK;
     KIRI_EACH(PartSource, source, parting->sources) {
         kiriSheetData* sheet = source->detach.sheet;
-        if (!source->waits) {
-            KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
-            kiriDetach_Commit(&source->detach, &parting->world->retired);
-            sheet->past = source->past;
-            kiriMemory_Adopt(&parting->world->retired, (void*)source->past.others);
-            PointIds(parting->world, sheet);
+        if (source->waits) {
+            result = KIRI_PENDING;
+            continue;
         }
+        KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+        kiriDetach_Commit(&source->detach, &world->retired);
+        sheet->past = source->past;
+        kiriMemory_Adopt(&world->retired, (void*)source->past.others);
+        PointIds(world, sheet);
+        world->samplesDue += world->budget.samples > 0 && !parting->isInTick ? (int64_t)source->samples : 0;
     }
+    return result;
 }
 
 /* ---- Sheets of their own ----------------------------------------------------------------------------------------- */
@@ -299,24 +288,7 @@ static kiriResult Detach(Parting* parting)
     if (result != KIRI_OK) {
         return result;
     }
-    CommitSources(parting);
-    Charge(parting);
-    return ResultOf(parting);
-}
-
-kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids)
-{
-    Parting parting;
-    kiriResult result = KIRI_ERROR_MEMORY;
-    if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
-        result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
-    }
-    for (int32_t i = 0; result >= 0 && i < count; ++i) {
-        const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
-        ids[i] = FindSource(&parting, sheet) != NULL ? 0 : sheet->id; /* else the frame would have left it */
-    }
-    EndParting(&parting);
-    return result;
+    return CommitSources(parting);
 }
 
 /* ---- Pieces that wait -------------------------------------------------------------------------------------------- */
@@ -482,18 +454,21 @@ static kiriResult Destroy(Parting* parting)
             }
         }
     }
-    CommitSources(parting);
+    kiriResult result = CommitSources(parting);
     kiriSeams_DropStale(parting->world);
-    Charge(parting);
-    return ResultOf(parting);
+    return result;
 }
 
-kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count)
+kiriResult kiriParts_TakeOut(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids)
 {
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
     if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
-        result = LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
+        result = !LeavesSome(&parting) ? KIRI_ERROR_STATE : ids != NULL ? Detach(&parting) : Destroy(&parting);
+    }
+    for (int32_t i = 0; ids != NULL && result >= 0 && i < count; ++i) {
+        const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
+        ids[i] = FindSource(&parting, sheet) != NULL ? 0 : sheet->id; /* else the frame would have left it */
     }
     EndParting(&parting);
     return result;
