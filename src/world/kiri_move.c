@@ -212,20 +212,12 @@ static int64_t NumberOf(const kiriObstacleData* obstacle)
     return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
 }
 
+/* Orders obstacles by the lower x of their boxes, which are extended by twice their motion in the tick. */
 static bool ComesFirst(const void* context, int32_t a, int32_t b)
 {
     const kiriWorld* world = context;
     double x = world->obstacles.data[a]->lower.x, y = world->obstacles.data[b]->lower.x;
     return x < y || (x == y && a < b);
-}
-
-/* Sorts obstacles by the lower x of their boxes, extended by twice their motion in the tick. Fails on out of memory. */
-static bool SortObstacles(kiriWorld* world, double dt)
-{
-    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
-        kiriObstacle_Bound(obstacle, 2.0 * dt);
-    }
-    return kiriSort_Order(&world->memory, &world->obstacleOrder, world->obstacles.count, ComesFirst, world);
 }
 
 /* The space in which a sheet may touch obstacles. */
@@ -400,10 +392,12 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
     double least = LeastDrift(world);
     TouchSearch looking = { world, dt, least, false };
     KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
+        kiriObstacle_Bound(obstacle, 2.0 * dt);
         looking.isAnyMoving |= IsMoving(obstacle, dt, least);
     }
     bool areTasks = kiriTasks_AreGiven(&world->tasks);
-    bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
+    bool ok = kiriSort_Order(&world->memory, &world->obstacleOrder, world->obstacles.count, ComesFirst, world) &&
+              (!areTasks || LookInTasks(&looking));
     ReadySearch(world, &world->obstacleSearch, dt);
     KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         kiriSheetData* sheet = world->sheets.data[i];
