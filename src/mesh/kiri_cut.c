@@ -201,7 +201,8 @@ static int32_t SplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
 static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 {
     kiriLatticePoint right = kiriMesh_HeadAt(walk->mesh, h), left = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(h));
-    return kiriOrient(walk->tip->at, right, walk->tip->goal) >= 0 && kiriOrient(walk->tip->at, left, walk->tip->goal) < 0;
+    return kiriOrient(walk->tip->at, right, walk->tip->goal) >= 0 &&
+           kiriOrient(walk->tip->at, left, walk->tip->goal) < 0;
 }
 
 /* Returns the half-edge whose wedge holds the way to the goal, or KIRI_NONE: the blade leaves the sheet. Where corners of
@@ -413,7 +414,8 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
     double toA = (double)kiriOrient(at, goal, pa), toB = (double)kiriOrient(at, goal, pb);
     double share = toA / (toA - toB);
     kiriLatticePoint crossing = kiriLattice_Between(pa, pb, share), p = share < 0.5 ? pa : pb;
-    int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a, here = kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h));
+    int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a,
+            here = kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h));
     bool canTake = IsNearerGoal(walk, p);
     bool isNear =
         IsWithinDistance(p, crossing, walk->slack) || (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
@@ -497,7 +499,8 @@ static bool CanFollow(const BladeWalk* walk, int32_t vertex)
 static int32_t NextVertex(BladeWalk* walk, int32_t h)
 {
     KIRI_ASSERT(kiriLattice_IsSame(kiriMesh_TailAt(walk->mesh, h), walk->tip->at));
-    int32_t opposite = kiriEdge_Next(h), a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Head(walk->mesh, opposite);
+    int32_t opposite = kiriEdge_Next(h), a = kiriMesh_Tail(walk->mesh, opposite),
+            b = kiriMesh_Head(walk->mesh, opposite);
     bool takesA = CanFollow(walk, a), takesB = CanFollow(walk, b);
     if (takesA || takesB) {
         return takesB && (!takesA || kiriLattice_IsSame(VertexPoint(walk, b), walk->tip->goal)) ? b : a;
@@ -539,7 +542,8 @@ static kiriCorridor CorridorOf(const BladeWalk* walk, kiriLatticePoint from, kir
 static int32_t LocatePoint(BladeWalk* walk, kiriLatticePoint at)
 {
     int32_t square = kiriSquares_At(&walk->mesh->squares, at);
-    walk->effort += square == KIRI_NONE ? 0 : LOOK_EFFORT * (int64_t)kiriSquares_CountNodes(&walk->mesh->squares, square);
+    walk->effort +=
+        square == KIRI_NONE ? 0 : LOOK_EFFORT * (int64_t)kiriSquares_CountNodes(&walk->mesh->squares, square);
     return kiriMesh_Locate(walk->mesh, at);
 }
 
@@ -633,7 +637,8 @@ static bool FollowLip(BladeWalk* walk)
     kiriBladeTip* tip = walk->tip;
     kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
     kiriLipPoint place;
-    bool follows = tip->vertex != KIRI_NONE && walk->reach >= SLACK && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
+    bool follows =
+        tip->vertex != KIRI_NONE && walk->reach >= SLACK && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
     walk->effort += corridor.effort;
     int32_t vertex = follows ? VertexOnEdge(walk, place.edge, place.at) : KIRI_NONE;
     follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex)) &&

@@ -174,8 +174,8 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
         const kiriFrameData* frame = &solver->before.data[f];
         double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
         double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + obstacleSpeed;
-        touch->means +=
-            kiriFrame_KineticEnergy(frame, kiriSystem_MaterialOf(system, f)) + 0.5 * frame->mass * (speed * speed - own * own);
+        touch->means += kiriFrame_KineticEnergy(frame, kiriSystem_MaterialOf(system, f)) +
+                        0.5 * frame->mass * (speed * speed - own * own);
     }
 }
 

@@ -42,7 +42,8 @@ void kiriYield_Flow(kiriYield* yield, const kiriBentStrain* strain, bool mayFlow
         return;
     }
     double over = strain->fold - fabs(yield->start.fold);
-    kiriBentStrain e = { strain->bending - yield->start.bending, strain->twist - yield->start.twist, kiriMax(over, 0.0) };
+    kiriBentStrain e = { strain->bending - yield->start.bending, strain->twist - yield->start.twist,
+                         kiriMax(over, 0.0) };
     double squared = e.bending * e.bending + yield->perTwist * e.twist * e.twist + yield->perFold * e.fold * e.fold;
     double length = sqrt(squared), L = yield->limit, c = length / L + yield->flowed;
     double g = SectionMoment(c, yield->hardening);
@@ -91,7 +92,8 @@ void kiriYield_TurnSprings(const kiriYield* yield, double loss, const kiriBentSt
         double bending = change->bending, twist = sqrt(yield->perTwist) * change->twist;
         springs->bending = k * yield->slope + loss;
         springs->twist = k * yield->share + loss;
-        pulls->bending = -k * yield->limit * SectionMoment(yield->c, yield->hardening) - loss * (a * bending + b * twist);
+        pulls->bending =
+            -k * yield->limit * SectionMoment(yield->c, yield->hardening) - loss * (a * bending + b * twist);
         pulls->twist = -loss * (a * twist - b * bending);
     } else { /* the secant: the rows of bending, twist and fold have no common direction */
         double flow = 1.0 - yield->share;
@@ -299,7 +301,8 @@ static kiriVec2 MeanCurvature(const kiriPlastics* plastics, int32_t i, int32_t j
 {
     const kiriPlasticRegion* regions = plastics->regions.data;
     KIRI_ASSERT(i >= 0 && i < plastics->regions.count && j >= 0 && j < plastics->regions.count);
-    return kiriVec2_Scale(0.5, kiriVec2_Add(AlongTensor(regions[i].bent, normal), AlongTensor(regions[j].bent, normal)));
+    return kiriVec2_Scale(0.5,
+                          kiriVec2_Add(AlongTensor(regions[i].bent, normal), AlongTensor(regions[j].bent, normal)));
 }
 
 void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLink* links, int32_t linkCount,

@@ -208,11 +208,13 @@ static void MeasureStretch(double lever, double bump, const MeanAxes* axes, cons
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n);
     double per = ahead < 0.0 ? 0.0 : ahead < lever ? ahead / lever : 1.0; /* base by ahead */
     double base = ahead > lever ? ahead : 0.5 * lever * (1.0 + per * per);
-    double off = bump * (1.0 - per), longer = 2.0 * y * (z - OFFSET_SHARE * y) + off * y, root = sqrt(base * base + fabs(longer)), share = base / root;
+    double off = bump * (1.0 - per), longer = 2.0 * y * (z - OFFSET_SHARE * y) + off * y,
+           root = sqrt(base * base + fabs(longer)), share = base / root;
     bool isShorter = longer < 0.0;
     *strain = ahead - lever + (isShorter ? base * share : root) - base;
     if (row != NULL) {
-        double byBase = isShorter ? share * (2.0 - share * share) : share, by = (isShorter ? share * share : 1.0) / root;
+        double byBase = isShorter ? share * (2.0 - share * share) : share,
+               by = (isShorter ? share * share : 1.0) / root;
         double byY = by * (z - 2.0 * OFFSET_SHARE * y + 0.5 * off), byZ = by * y;
         EndVectors offset = Combine(byY, &aside, byZ, &beside), change = Combine(byY, m, byZ, q);
         kiriStrainRow d;
@@ -784,8 +786,8 @@ static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
 }
 
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
-                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
-                            const kiriMaterial* material)
+                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was,
+                            const kiriFrameData* frames, const kiriMaterial* material)
 {
     KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity && linkCount <= strainOffsets->from.capacity);
     const kiriStrainOffset none = { { 0.0 } };
@@ -1124,8 +1126,8 @@ static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, ki
 }
 
 /* Adds an element with the frame's own A, and with its borders if it is a membrane. */
-static bool AddRegionElement(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame, kiriAreaElement element,
-                      bool hasBorders)
+static bool AddRegionElement(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame,
+                             kiriAreaElement element, bool hasBorders)
 {
     element.area = regions->material[frame].area;
     element.first = elements->shares.count;

@@ -199,8 +199,8 @@ const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* stra
    strain; new links have none. was[k], unless `was` is null: index of the old link that equals link k bit for bit, or
    KIRI_NONE if unknown. */
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
-                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
-                            const kiriMaterial* material);
+                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was,
+                            const kiriFrameData* frames, const kiriMaterial* material);
 
 /* Fades the offsets of these links by 1 / e per `time` (s), but for their plastic parts. */
 void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,
