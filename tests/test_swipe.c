@@ -191,7 +191,8 @@ static void CheckOnceWrong(int32_t motion, const int32_t* seeds, int32_t count)
 static void TestSwipeOnceWrong(void** state)
 {
     static const int32_t sways[] = { 88,   146,  195,  289,  327,  373,  430,  737,  812,  993,   1127,
-                                     1305, 1330, 1387, 1555, 1804, 1876, 1896, 2681, 10016, 13339 };
+                                     1305, 1330, 1387, 1555, 1804, 1876, 1896, 2681,
+                                     10016, 11880, 13339 };
     static const int32_t blown[] = { 15, 72, 86, 106, 124, 212, 237, 724 };
     CheckOnceWrong(SWAYS, sways, sizeof(sways) / sizeof(sways[0]));
     CheckOnceWrong(BLOWN, blown, sizeof(blown) / sizeof(blown[0]));

@@ -77,8 +77,10 @@ typedef struct BladeWork {
 #define FOUND 8.0      /* a layer goes on this near to where its track is; more than this counts a place beside it */
 #define SLIT 64.0      /* an edge that stays nearer to a slit slides in it */
 
-/* Between two slits no lip is nearer to the middle than this share of their distance. */
+/* Between two slits no lip is nearer to the middle than this share of their distance; between two places of one slit a lip
+   is nearer than BETWEEN, unless the slit turns back. */
 #define ACROSS 0.3
+#define BETWEEN 0.45
 
 /* The farthest that an unseen way may go, as a share of the sheet's longer side. */
 #define UNSEEN 0.125
@@ -312,7 +314,8 @@ static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2
     for (int32_t i = places - 1; isInSlit && i >= 0; --i) {
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
         isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
-                   FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(*start, slit)), ON_LIP * work->snap, &middle);
+                   FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(*start, slit)),
+                            kiriMin(ON_LIP * work->snap, BETWEEN * RestDistance(*start, slit) + 0.01 * work->snap), &middle);
         *start = slit;
     }
     return isInSlit;
@@ -326,7 +329,7 @@ static bool LeadTrack(BladeWork* work, Track* track, kiriVec2 rest)
     kiriVec2 slit, foot;
     if (IsInSlit(work, track->rest, rest, &slit, &foot)) {
         bool isOn = RestDistance(track->rest, foot) < ON_LIP * work->snap;
-        return (isOn || (track->cut == NULL && track->stroke == KIRI_NONE) || AddTrackPoint(work, track, foot)) &&
+        return (isOn || AddTrackPoint(work, track, foot)) &&
                Slide(work, track, slit);
     }
     NotePassing(track, rest);
