@@ -245,6 +245,39 @@ static void TestDetailOfCurtain(void** state)
     }
 }
 
+/* The drawn surface goes through pins and held frames. */
+static void TestDetailIsHeld(void** state)
+{
+    static const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    enum { FRAMES = 25, MIDDLE = 12 };
+    Host host;
+    kiriPin pins[2];
+    kiriFrame frames[FRAMES];
+    kiriFrameState start;
+    int32_t count;
+    Host_Start(&host);
+    kiriSheet sheet = AddCloth(&host, 2, FRAMES, pins);
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
+    OK(kiriFrame_GetState(host.world, frames[MIDDLE], &start));
+    OK(kiriFrame_Hold(host.world, frames[MIDDLE], start.position, upright));
+    for (int32_t tick = 0; tick < 120; ++tick) {
+        const float in = 0.003f * (float)(tick < 100 ? tick : 100);
+        const float corners[2][3] = { { in, 1.0f, 0.0f }, { 1.0f - in, 1.0f, 0.0f } };
+        for (int k = 0; k < 2; ++k) {
+            OK(kiriPin_SetTarget(host.world, pins[k], corners[k]));
+        }
+        OK(Host_Tick(&host, dt, 4));
+        for (int k = 0; k < 3; ++k) {
+            const float corner[2] = { (float)k, 1.0f }, *to = k < 2 ? corners[k] : start.position;
+            kiriPointState point;
+            OK(kiriSheet_GetPoint(host.world, sheet, k < 2 ? corner : start.restPoint, &point));
+            assert_true(fabsf(point.position[0] - to[0]) < 1e-3f && fabsf(point.position[1] - to[1]) < 1e-3f);
+            assert_true(fabsf(point.position[2] - to[2]) < 1e-3f);
+        }
+    }
+    Host_Stop(&host);
+}
+
 /* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */
 static void TestDetailOnBall(void** state)
 {
@@ -294,7 +327,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestAsWrittenAnew),
         cmocka_unit_test(TestPartsWakeAlone),
-        cmocka_unit_test(TestDetailOfCurtain),
+        cmocka_unit_test(TestDetailOfCurtain), cmocka_unit_test(TestDetailIsHeld),
         cmocka_unit_test(TestDetailOnBall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

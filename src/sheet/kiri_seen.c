@@ -635,53 +635,42 @@ void kiriView_EndWriting(kiriSheetData* sheet)
 
 /* ---- Detail layer ---- */
 
-/* Returns the squared distance of a point of the rest plane from a line, m^2. */
-static double SquaredFromLine(const kiriMeshData* mesh, kiriVec2 p, kiriLatticePoint start, kiriLatticePoint end)
+/* Marks vertices that a pin, a held frame or a seam holds, by a 0 in the last of their numbers in `moving`: corners of
+   triangles along its line that are nearer to it, in the rest plane, than `share` of the way to another corner. */
+static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint to, double share)
 {
-    kiriVec2 from = kiriMesh_Local(mesh, start), by = kiriVec2_Sub(p, from);
-    kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, end), from);
-    double square = kiriVec2_Dot(along, along);
-    double t = square > 0.0 ? kiriClamp(kiriVec2_Dot(along, by) / square, 0.0, 1.0) : 0.0;
-    by = kiriVec2_AddScaled(by, -t, along);
-    return kiriVec2_Dot(by, by);
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriVec2 from = kiriMesh_Local(mesh, at), end = kiriMesh_Local(mesh, to);
+    kiriNearby nearby = kiriNearby_Begin(&mesh->squares, at, to, 0.0);
+    for (int32_t triangle = kiriNearby_Next(&nearby); triangle != KIRI_NONE; triangle = kiriNearby_Next(&nearby)) {
+        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+            kiriVec2 p = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
+            double next = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h))),
+                   last = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, kiriEdge_Previous(h))));
+            if (kiriVec2_DistanceToWay(p, from, end) < share * kiriMax(next, last)) {
+                sheet->seen.surface.detail.moving.data[4 * kiriMesh_Tail(mesh, h) + 3] = 0.0f;
+            }
+        }
+    }
 }
 
 bool kiriSewn_IsNear(const kiriSheetData* sheet, kiriSeam seam, kiriVec2 at, double reach)
 {
     bool isNear = false;
     KIRI_EACH_WHILE(!isNear, const kiriSewnLine, line, sheet->sewn) {
-        isNear = line->seam == seam && SquaredFromLine(&sheet->mesh, at, line->from, line->to) < reach * reach;
+        isNear = line->seam == seam && kiriVec2_DistanceToWay(at, kiriMesh_Local(&sheet->mesh, line->from),
+                                                                kiriMesh_Local(&sheet->mesh, line->to)) < reach;
     }
     return isNear;
 }
 
 #define SEWN 0.3 /* of an edge: a vertex as near to a seam is on the lip */
 
-/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex, or if it is on a seam or fold. */
-static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
-{
-    const kiriMeshData* mesh = &sheet->mesh;
-    KIRI_ASSERT_HAS(mesh->vertices, vertex);
-    kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[vertex].at);
-    kiriVec2 edge = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, mesh->vertices.data[vertex].edge)), p);
-    bool isPinned = false;
-    KIRI_EACH_WHILE(!isPinned, const kiriPinData, pin, sheet->pins) {
-        isPinned = SquaredFromLine(mesh, p, pin->at, pin->to) < kiriVec2_Dot(edge, edge);
-    }
-    KIRI_EACH_WHILE(!isPinned, const kiriSewnLine, line, sheet->sewn) {
-        isPinned = SquaredFromLine(mesh, p, line->from, line->to) < SEWN * SEWN * kiriVec2_Dot(edge, edge);
-    }
-    kiriLatticePoint at = mesh->vertices.data[vertex].at;
-    KIRI_EACH_WHILE(!isPinned, const kiriFoldLine, fold, mesh->folds) {
-        isPinned = kiriFoldLine_Has(fold, at, at); /* both sides stay together */
-    }
-    return isPinned;
-}
-
 /* The longest offset by the side of a frame's region. */
 #define LEASH 0.25
 
-/* Lists vertices and edges again if pieces woke or fell asleep, or the mesh, the pieces or the pins are others. */
+/* Lists vertices and edges again if pieces woke or fell asleep, or the mesh, the pieces, the pins, the held frames or the
+   seams are others. */
 static void ListDetail(kiriSheetData* sheet)
 {
     kiriDetail* detail = &sheet->seen.surface.detail;
@@ -693,19 +682,40 @@ static void ListDetail(kiriSheetData* sheet)
     KIRI_EACH(const kiriSewnLine, line, sheet->sewn) {
         kiriHash_Word(&pins, (uint64_t)(uint32_t)line->from.x << 32 | (uint32_t)line->from.y);
     }
-    bool isStale = !detail->isListed || sheet->seen.isElsewhere || pins != detail->pins;
+    bool isStale = !detail->isListed || sheet->seen.isElsewhere;
     KIRI_EACH_INDEX(f, sheet->frames) {
         uint8_t moves = kiriSheet_Moves(sheet, f);
         isStale = isStale || moves != detail->awake.data[f];
         detail->awake.data[f] = moves;
+        kiriHash_Word(&pins, sheet->frames.data[f].held ? sheet->frames.data[f].id : 0);
     }
-    if (isStale) {
+    if (isStale || pins != detail->pins) {
         detail->pins = pins;
         detail->vertices.count = 0;
         KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
+            kiriLatticePoint at = sheet->mesh.vertices.data[v].at;
+            bool isOnFold = false; /* both sides stay together */
+            KIRI_EACH_WHILE(!isOnFold, const kiriFoldLine, fold, sheet->mesh.folds) {
+                isOnFold = kiriFoldLine_Has(fold, at, at);
+            }
+            detail->moving.data[4 * v + 3] = isOnFold ? 0.0f : 1.0f;
+        }
+        KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+            MarkHeld(sheet, pin->at, pin->to, 1.0);
+        }
+        KIRI_EACH(const kiriSewnLine, line, sheet->sewn) {
+            MarkHeld(sheet, line->from, line->to, SEWN);
+        }
+        KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+            kiriLatticePoint at = kiriMesh_Snap(&sheet->mesh, frame->site.at);
+            if (frame->held) {
+                MarkHeld(sheet, at, at, 1.0);
+            }
+        }
+        KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
             int32_t frame = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
             if (detail->awake.data[frame]) {
-                double leash = IsPinned(sheet, v) ? 0.0 : LEASH * sqrt(sheet->frames.data[frame].area);
+                double leash = detail->moving.data[4 * v + 3] * LEASH * sqrt(sheet->frames.data[frame].area);
                 KIRI_NEXT(detail->vertices) = (kiriDetailVertex){ v, (float)leash, 0.0f };
             }
         }
