@@ -429,6 +429,65 @@ static void TestBag(void** state)
     Host_Stop(&host);
 }
 
+/* Drops a free ball of 14 times the mass of a bag into it: the panels touch the ball as one island. */
+static void DropBall(float mass, float aside)
+{
+    static const float line[8] = { 0.0f, 0.3f, 0.0f, 0.0f, 0.3f, 0.0f, 0.3f, 0.3f };
+    Host host;
+    Host_Start(&host);
+    kiriSheet panels[2];
+    for (int k = 0; k < 2; ++k) {
+        kiriSheetDef def = DefaultSheet();
+        kiriPinDef pin;
+        kiriPin made;
+        def.position[0] = -0.15f;
+        def.position[1] = k == 0 ? -0.01f : 0.01f;
+        def.axisV[1] = 0.0f;
+        def.axisV[2] = 1.0f;
+        def.frameCount = 36;
+        panels[k] = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 30, 30);
+        kiriDefaultPinDef(&pin);
+        for (int i = 0; i < 2; ++i) {
+            pin.restPoint[0] = 0.1f * (float)(i + 1);
+            pin.restPoint[1] = pin.target[2] = 0.3f;
+            pin.target[0] = pin.restPoint[0] - 0.15f;
+            pin.target[1] = 7.0f * def.position[1];
+            OK(kiriCreatePin(host.world, panels[k], &pin, &made));
+        }
+    }
+    kiriSeamDef seam = SeamDef(panels[0], line, panels[1], line, 4);
+    kiriSeam made;
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    kiriObstacleDef def = DefaultObstacle();
+    kiriObstacleState state;
+    def.type = KIRI_OBSTACLE_SPHERE;
+    def.radius = 0.06f;
+    def.mass = mass;
+    def.position[0] = aside;
+    def.position[2] = 0.3f;
+    kiriObstacle ball = World_AddObstacle(host.world, &def);
+    for (int32_t tick = 0; tick < 150; ++tick) {
+        float velocity[3];
+        OK(kiriObstacle_GetState(host.world, ball, &state));
+        for (int k = 0; k < 3; ++k) {
+            velocity[k] = state.velocity[k] + (float)state.impulse[k] / mass - (k == 2 ? 9.81f * dt : 0.0f);
+        }
+        OK(kiriObstacle_SetVelocity(host.world, ball, velocity, state.angularVelocity));
+        OK(kiriWorld_Tick(host.world, dt, 4));
+    }
+    OK(kiriObstacle_GetState(host.world, ball, &state));
+    assert_true(state.position[2] > 0.04f);
+    Host_Stop(&host);
+}
+
+static void TestBagHolds(void** state)
+{
+    (void)state;
+    DropBall(0.1f, 0.0f);
+    DropBall(0.5f, 0.0f);
+    DropBall(0.5f, 0.02f);
+}
+
 /* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
 
 /* A cut through both sheets parts the seam. Pieces become sheets, and are destroyed. */
@@ -744,6 +803,7 @@ int main(void)
         cmocka_unit_test(TestRing),     cmocka_unit_test(TestPieces), cmocka_unit_test(TestStrength),
         cmocka_unit_test(TestBreak),    cmocka_unit_test(TestSaves),  cmocka_unit_test(TestReplay),
         cmocka_unit_test(TestMemory),   cmocka_unit_test(TestRanges), cmocka_unit_test(TestArguments),
+        cmocka_unit_test(TestBagHolds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

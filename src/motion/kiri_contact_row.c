@@ -125,9 +125,9 @@ static void WeighMembers(const kiriSystem* system, kiriContactStep* step)
 }
 
 /* Places the plane as at the end of the step, and finds how far the obstacle goes. A point that starts below the plane
-   ends no higher than `pushSpeed` lets it. all[]: the weights of the row. */
+   ends no higher than `pushSpeed` lets it. all[]: the weights of the row. `share`: of the mass of the island. */
 static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* all, int32_t count,
-                       kiriContactStep* step)
+                       double share, kiriContactStep* step)
 {
     const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
@@ -139,9 +139,9 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     /* A soft contact rests within its reach. A fold may lie deeper: its push may not fall with the depth. */
     pushed += row->isFold ? row->reach : kiriClamp(2.0 * row->reach - depth, 0.0, row->reach);
     step->lowered = depth > pushed ? depth - pushed : 0.0;
-    /* The point may gain energy so. In an island one deep body would throw the others: there it gains less. */
+    /* The point may gain energy so. A small body of an island would throw the others: it gains less. */
     double out = depth > 0.0 && !kiriContact_IsMutual(step) ? depth - step->lowered : 0.0;
-    out = solver->islandCount > 1 ? kiriMin(out, row->reach) : out;
+    out = kiriMax(kiriMin(out, row->reach), share * out);
     step->lift = kiriVec3_Dot(row->normal, step->carried) + out;
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
@@ -231,7 +231,8 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     }
 }
 
-static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kiriIslandBody* member, int32_t k)
+static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kiriIslandBody* member, int32_t k,
+                         double share)
 {
     KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < member->sheet->contactCount);
     kiriContactStep* step = &KIRI_NEXT(solver->contacts);
@@ -252,7 +253,16 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
         ChooseMembers(solver, all, count, step);
     }
     WeighMembers(system, step);
-    PlacePlane(solver, system, all, count, step);
+    PlacePlane(solver, system, all, count, share, step);
+}
+
+static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
+{
+    double mass = 0.0;
+    for (int32_t f = first; f < first + count; ++f) {
+        mass += system->frames[f].mass;
+    }
+    return mass;
 }
 
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
@@ -260,9 +270,11 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
     solver->contacts.count = 0;
     for (int32_t n = 0; n < solver->islandCount; ++n) {
         const kiriIslandBody* member = &solver->islandBodies[n];
-        int32_t k = member->solver->bodies.bodies.data[member->body].contact;
+        const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];
+        int32_t k = body->contact, first = body->island, count = body->frames.count;
+        double share = k != KIRI_NONE ? MassOf(system, first, count) / MassOf(system, 0, system->frameCount) : 0.0;
         for (; k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
-            BeginContact(solver, system, member, k);
+            BeginContact(solver, system, member, k, share);
         }
     }
     FindMeans(solver, system);
