@@ -9,7 +9,7 @@ var at = ""
 func run(kiri_class, class_of_worlds):
 	kiri = kiri_class
 	world_class = class_of_worlds
-	for name in ["constants", "defaults", "worlds", "sheets", "meshes", "cuts", "blades", "events", "frames", "pieces", "pins",
+	for name in ["constants", "defaults", "worlds", "sheets", "meshes", "cuts", "blades", "events", "frames", "pieces", "pins", "folds", "seams",
 			"loads", "obstacles", "contacts", "rays", "saves", "recordings", "drawing", "settings", "handles", "errors", "threads"]:
 		at = name
 		call("test_" + name)
@@ -268,6 +268,42 @@ func test_pins():
 	check(pin.get_reaction().has("torque"), "reaction")
 	equal(hinge.destroy(), kiri.OK)
 	equal(sheet.get_pins(), [pin, clamp_pin])
+
+func test_folds():
+	var world = a_world()
+	var fold = {"from": Vector2(0.5, 0), "to": Vector2(0.5, 0.5), "stiffness": 0.01, "rest_angle": 0.0}
+	var sheet = world.create_folded_sheet(a_def(), [fold])
+	near(sheet.get_fold(0).angle, 0.0)
+	near(sheet.get_fold(0).fold.stiffness, 0.01)
+	equal(sheet.set_fold(0, 0.02, 0.5), kiri.OK)
+	equal(sheet.set_fold(1, 0.02, 0.5), kiri.ERROR_ARGUMENT)
+	equal(sheet.add_fold({"from": Vector2(0.25, 0), "to": Vector2(0.25, 0.5)}), 1)
+	tick(world, 20)
+	near(sheet.get_fold(1).length, 0.5)
+	check(sheet.get_fold(0).angle > 0.01, "it is driven")
+
+func a_def():
+	var made = kiri.fill_rectangle(1.0, 0.5, 8, 4)
+	return {"rest_positions": made.rest_positions, "indices": made.indices, "frame_count": 6}
+
+func test_seams():
+	var world = a_world()
+	var a = a_sheet(world)
+	var b = a_sheet(world, {"position": Vector3(1, 0, 0)})
+	var def = kiri.default_seam_def()
+	def.sheet_a = a
+	def.sheet_b = b
+	def.line_a = [Vector2(1, 0), Vector2(1, 0.5)]
+	def.line_b = [Vector2(0, 0), Vector2(0, 0.5)]
+	var seam = world.create_seam(def)
+	equal(world.get_seams(), [seam])
+	check(seam.get_count() > 1, "stitches")
+	equal(seam.set_hinge(0.01, 0.1), kiri.OK)
+	tick(world, 10)
+	equal(seam.get_stitch(0).sheet_a, a)
+	check(seam.get_stitch(0).gap < 1e-3, "it holds")
+	equal(seam.destroy(), kiri.OK)
+	equal(world.get_seams(), [])
 
 func test_loads():
 	var world = a_world()

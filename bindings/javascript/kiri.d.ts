@@ -1374,7 +1374,7 @@ export class Sheet {
      *  Sheet.getSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
      *  momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
     setSettings(settings: SheetSettingsGiven): ResultCode;
-    /** Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+    /** Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
      *  cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
      *  moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
     addFold(fold: FoldGiven): number;

@@ -478,7 +478,7 @@ typedef struct kiriFold {
 KIRI_API kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds,
                                           int32_t count, kiriSheet* sheet);
 
-/* Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of cuts,
+/* Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of cuts,
    until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and moves to its
    rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
 KIRI_API kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* fold, int32_t* index);

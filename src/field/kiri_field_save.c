@@ -93,8 +93,7 @@ KIRI_TABLE(LinkWorkTable, kiriLinkWork, {
 
 KIRI_SHARED_TABLE(kiriLinksTable, kiriLinks, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(links, next, corners, nextCorners),
-    KIRI_ROOM_OF(was),
+    KIRI_ARRAYS(links, next, corners, nextCorners, was),
     KIRI_OWNED(work, LinkWorkTable),
 })
 

@@ -13,7 +13,7 @@ kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, co
 }
 
 /* Returns the vector of a member's material as its frame carries it. */
-static kiriVec3 WayOf(const kiriStitchRow* row, int32_t member, const kiriPose* poses)
+static kiriVec3 MemberWay(const kiriStitchRow* row, int32_t member, const kiriPose* poses)
 {
     return kiriMat3_Mul(poses[row->members[member].frame].A, row->ways[member >= row->counts[0]]);
 }
@@ -23,7 +23,7 @@ static kiriVec3 PullOf(const kiriStitchRow* row, const kiriPose* poses)
 {
     kiriVec3 apart = { 0.0, 0.0, 0.0 };
     for (int32_t m = 0; m < CountOf(row); ++m) {
-        apart = kiriVec3_AddScaled(apart, row->members[m].value, WayOf(row, m, poses));
+        apart = kiriVec3_AddScaled(apart, row->members[m].value, MemberWay(row, m, poses));
     }
     return kiriVec3_Scale(-row->bending, apart);
 }
@@ -33,7 +33,7 @@ kiriVec3 kiriStitch_Moment(const kiriSystem* system, const kiriStitchRow* row, i
     KIRI_ASSERT(member < CountOf(row) && row->members[member].frame < system->frameCount);
     (void)system;
     kiriVec3 pull = kiriVec3_Scale(row->members[member].value, PullOf(row, poses));
-    return kiriVec3_Cross(WayOf(row, member, poses), pull);
+    return kiriVec3_Cross(MemberWay(row, member, poses), pull);
 }
 
 double kiriStitches_Energy(const kiriSystem* system, const kiriPose* poses)

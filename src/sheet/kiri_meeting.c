@@ -89,7 +89,7 @@ static void SetPlace(kiriTouch* touch, const int32_t* vertices, const double* sh
 
 /* Makes the touch of a blend of up to three vertices with the plane through `on`. `above` is the height of the blend, at
    `at`, over that plane, m. Returns false if it stays more than `most` above the plane in the tick. */
-static bool TouchBlend(const kiriMeeting* meeting, const int32_t* v, const double* share, int32_t count, kiriVec3 at,
+static bool TouchMixed(const kiriMeeting* meeting, const int32_t* v, const double* share, int32_t count, kiriVec3 at,
                        kiriVec3 normal, double above, double most, kiriVec3 on, double gap, kiriTouch* touch)
 {
     kiriVec3 velocity = { 0 };
@@ -389,7 +389,7 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     kiriVec3 local = BlendOfThree(x, share);
     kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, local, meeting->across);
     kiriVec3 on = kiriObstacle_PointToWorld(obstacle, kiriVec3_AddScaled(local, -nearest.distance, nearest.normal));
-    return TouchBlend(meeting, v, share, 3, kiriObstacle_PointToWorld(obstacle, local),
+    return TouchMixed(meeting, v, share, 3, kiriObstacle_PointToWorld(obstacle, local),
                       kiriObstacle_ToWorld(obstacle, nearest.normal), nearest.distance, (1.0 + NEARBY) * meeting->gap,
                       on, meeting->gap, touch);
 }
@@ -492,7 +492,7 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriVec3 normal = kiriVec3_Scale(kiriVec3_Dot(sum, point->out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
     double above = height * kiriVec3_Dot(normal, point->out) - gap;
     return IsTangentTo(point, normal) &&
-           TouchBlend(meeting, v, share, 3, at, normal, above, NEARBY * gap, point->at, gap, touch);
+           TouchMixed(meeting, v, share, 3, at, normal, above, NEARBY * gap, point->at, gap, touch);
 }
 
 /* Returns true if the line of the point meets a box (slab test). */
@@ -729,7 +729,7 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
     kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(d, kiriVec3_Sub(to, from)));
     double above = height * kiriVec3_Dot(normal, point->out) - gap, shares[2] = { 1.0 - share, share };
     return IsTangentTo(point, normal) &&
-           TouchBlend(meeting, (const int32_t[2]){ a, b }, shares, 2, kiriVec3_AddScaled(point->at, height, point->out),
+           TouchMixed(meeting, (const int32_t[2]){ a, b }, shares, 2, kiriVec3_AddScaled(point->at, height, point->out),
                       normal, above, NEARBY * gap, point->at, gap, touch);
 }
 

@@ -131,7 +131,7 @@ static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex
 /* Returns a blend of up to three vertices of the skin. Missing vertices come last and are KIRI_NONE. */
 static inline kiriVec3 kiriSurface_Blend(const kiriSurface* surface, const int32_t vertex[3], const double share[3])
 {
-    kiriVec3 at = { 0 };
+    kiriVec3 at = kiriVec3_Make(0.0, 0.0, 0.0);
     for (int k = 0; k < 3 && vertex[k] != KIRI_NONE; ++k) {
         at = kiriVec3_AddScaled(at, share[k], kiriSurface_At(surface, vertex[k]));
     }

@@ -908,7 +908,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
 
 #define FOLDED 0.3       /* cosine: if the directors of all frames are nearer to their mean the piece does not fold */
 #define GRAZING 0.2      /* minimum sine of the angle between an edge and a triangle that it crosses */
-#define STRAIGHT 0.2     /* change of the length of the line per length of a move: less gives no direction */
+#define LEAST_TURN 0.2     /* change of the length of the line per length of a move: less gives no direction */
 #define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
 #define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other */
 
@@ -1119,7 +1119,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     touch.key = KeyOfFold(sheet, search->a, search->b, triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = FoldDistance(sheet, &near, 0.0);
-    if (touch.distance > 0.0 && kiriVec3_Length(out) > STRAIGHT) {
+    if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
         search->ok = search->ok && kiriArray_Push(&search->world->memory, &search->world->pairs.touches, touch);
     }
     return search->least[0];

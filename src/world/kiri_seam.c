@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define STIFFNESS 100.0   /* of a stitch, relative to Young's modulus times thickness: more resists no pull, */
+#define STITCH_STIFFNESS 100.0   /* of a stitch, relative to Young's modulus times thickness: more resists no pull, */
 #define SQUARED_PITCH 5e7 /* 1/s^2: and of a frame on it. It sinks by 2e-7 m under its weight */
 #define CLOSING_SPEED 1.0 /* m/s: limit of the speed at which lips that are apart are drawn together */
 #define NEAR 256          /* lattice steps: rounding error of the host's floats */
@@ -100,15 +100,15 @@ static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* 
    second one to where the first one and the normal of its sheet have it at the rest angle. Angles are 0 where the sheets
    are one flat sheet, and above 0 where the second one turns to the side of the first one's normal. */
 
-#define HALVINGS 20
+#define ANGLE_HALVINGS 20
 
 /* Computes cosine and sine: of a small part first, which is then doubled. */
 static kiriVec2 DirectionAt(double angle)
 {
     KIRI_ASSERT(angle > -4.0 && angle < 4.0);
-    double part = angle / (1 << HALVINGS);
+    double part = angle / (1 << ANGLE_HALVINGS);
     kiriVec2 at = { 1.0 - 0.5 * part * part, part };
-    for (int k = 0; k < HALVINGS; ++k) {
+    for (int k = 0; k < ANGLE_HALVINGS; ++k) {
         at = kiriVec2_Make(at.x * at.x - at.y * at.y, 2.0 * at.x * at.y);
     }
     return at;
@@ -120,7 +120,7 @@ static double AngleBetween(kiriVec3 a, kiriVec3 b)
     kiriVec3 one = kiriVec3_Normalize(a), other = kiriVec3_Normalize(b);
     double cosine = 0.5 * kiriVec3_Length(kiriVec3_Add(one, other)), sine = 0.5 * kiriVec3_Distance(one, other);
     double times = 2.0;
-    for (int k = 0; k < HALVINGS; ++k) { /* halves the angle */
+    for (int k = 0; k < ANGLE_HALVINGS; ++k) { /* halves the angle */
         cosine = kiriRoot(0.5 * (1.0 + cosine));
         sine *= 0.5 / cosine;
         times *= 2.0;
@@ -205,7 +205,7 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
 }
 
 /* Returns the distance of frames, m. */
-static double SpacingOf(const kiriSheetData* sheet)
+static double FrameSpacing(const kiriSheetData* sheet)
 {
     double area = 0.0;
     KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
@@ -220,7 +220,7 @@ static double SpacingOf(const kiriSheetData* sheet)
 static bool IsStiff(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
-    double thickness = material->thickness, spacing = SpacingOf(sheet);
+    double thickness = material->thickness, spacing = FrameSpacing(sheet);
     double bending = (double)material->youngsModulus * thickness * thickness / 12.0;
     return bending > (double)material->density * GRAVITY * spacing * spacing * spacing;
 }
@@ -265,7 +265,7 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
     kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
                                  kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
     double length = kiriMax(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
-    double spacing = kiriMin(SpacingOf(sheets[0]), SpacingOf(sheets[1]));
+    double spacing = kiriMin(FrameSpacing(sheets[0]), FrameSpacing(sheets[1]));
     *why = !(length > 0.0) ? "def.lineA and def.lineB have no length"
            : sheets[0]->settings.mechanics.planar || sheets[1]->settings.mechanics.planar
                ? "def names a planar sheet: it cannot be sewn"
@@ -461,7 +461,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
             member->value = end == 0 ? member->value : -member->value;
         }
     }
-    row->stiffness = data->share * kiriMin(SQUARED_PITCH * mass, STIFFNESS * stiffness);
+    row->stiffness = data->share * kiriMin(SQUARED_PITCH * mass, STITCH_STIFFNESS * stiffness);
     if (seam->bending > 0.0 && row->solvers[0] != NULL && row->solvers[1] != NULL) {
         double off = AngleBetween(seen[0], seen[1]), sine = DirectionAt(off).y;
         double linear = off > 1e-3 ? off / kiriMax(sine, LEAST_SINE) : 1.0; /* the spring pulls with the sine */

@@ -14,6 +14,9 @@ func _init():
 	print_methods("KiriPin", sheet.create_pin({}))
 	print_methods("KiriObstacle", world.create_obstacle({}))
 	print_methods("KiriBlade", world.begin_blade())
+	var other = world.create_rectangle(1.0, 1.0, 1, 1, {})
+	var line = [Vector2(0, 0), Vector2(0, 1)]
+	print_methods("KiriSeam", world.create_seam({"sheet_a": sheet, "sheet_b": other, "line_a": line, "line_b": line}))
 	var failures = load("res://test_godot.gd").new().run(Kiri, Kiri.World)
 	print(load("res://twin.gd").run(Kiri, Kiri.create_world({"gravity": Vector3(1, 0, -9.81)})))
 	OS.exit_code = 1 if failures > 0 else 0

@@ -769,7 +769,7 @@ function Sheet:setSettings(settings) end
 ---@return kiri.Sheet
 function World:createFoldedSheet(def, folds, count) end
 
---- Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+--- Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
 --- cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
 --- moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
 ---@param fold? kiri.Fold

@@ -201,7 +201,7 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetSettings', 'kiriSheetSettings', self.id), self.world)
 
     def add_fold(self, **fields: Any) -> int:
-        """Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget
+        """Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget
         of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment,
         and moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
         """

@@ -1157,7 +1157,7 @@ unsafe extern "C" {
     /// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index.
     /// KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
     pub fn kiriCreateFoldedSheet(world: *mut kiriWorld, def: *const kiriSheetDef, folds: *const kiriFold, count: i32, sheet: *mut kiriSheet) -> kiriResult;
-    /// Adds a fold to a sheet; \*index is the count of its folds before. The next ticks make the
+    /// Adds a fold to a sheet; its index is the count of folds before. The next ticks make the
     /// fold, on the budget of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets
     /// one. The fold starts without a moment, and moves to its rest angle within fadeTime. Errors
     /// as of kiriCreateFoldedSheet.

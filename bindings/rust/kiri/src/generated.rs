@@ -2622,7 +2622,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Adds a fold to a sheet; \*index is the count of its folds before. The next ticks make the
+    /// Adds a fold to a sheet; its index is the count of folds before. The next ticks make the
     /// fold, on the budget of cuts, until a [`EventType::CutFinished`]. A side without a frame gets
     /// one. The fold starts without a moment, and moves to its rest angle within `fade_time`.
     /// Errors as of [`World::create_folded_sheet`].
