@@ -8,7 +8,7 @@
 
 #define SIDE 0.2f
 
-enum { MOST_TICKS = 1000, MOST_ROWS = 17 };
+enum { MOST_TICKS = 400, MOST_ROWS = 17 };
 
 /* As stiff and as heavy as printing paper, and `thin` times as thick. */
 static kiriSheetDef PaperDef(int32_t grid, float thin)

@@ -138,16 +138,22 @@ static void BecomeEuler(kiriSolver* solver, const kiriSystem* system)
     Predict(solver, system);
 }
 
+static bool IsSamePose(const kiriPose* a, const kiriPose* b)
+{
+    return kiriVec3_Equal(a->x, b->x) && kiriVec3_Equal(a->A.u, b->A.u) && kiriVec3_Equal(a->A.v, b->A.v) &&
+           kiriVec3_Equal(a->A.d, b->A.d);
+}
+
 /* Returns true if the host moves a held frame, or a clamp: it goes to its place at once. */
 static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; solver->isHeld && f < system->frameCount; ++f) {
-        if (system->frames[f].held && memcmp(&solver->start.data[f], &solver->predictions.data[f].pose, sizeof(kiriPose)) != 0) {
+        if (system->frames[f].held && !IsSamePose(&solver->start.data[f], &solver->predictions.data[f].pose)) {
             return true;
         }
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
-        if (memcmp(&system->clamps[k].start, &system->clamps[k].pose, sizeof(kiriPose)) != 0) {
+        if (!IsSamePose(&system->clamps[k].start, &system->clamps[k].pose)) {
             return true;
         }
     }
@@ -485,6 +491,12 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
     return least;
 }
 
+static int32_t FirstMember(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    kiriElement_Members(system, k, solver->members.data);
+    return solver->members.data[0];
+}
+
 static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
 {
     bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
@@ -586,9 +598,8 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         kiriElement_Stiffness(system, k, stiffness);
         MeasureElement(system, k, solver->start.data, solver->startStrain.data);
         solver->stopping.data[k] = 0;
-        kiriElement_Members(system, k, solver->members.data);
-        const kiriMaterial* material = kiriSystem_MaterialOf(system, solver->members.data[0]);
-        double damping = (double)material->flexDamping / dt * DampingShare(solver, system, k);
+        int32_t first = FirstMember(solver, system, k);
+        double damping = (double)kiriSystem_MaterialOf(system, first)->flexDamping / dt * DampingShare(solver, system, k);
         for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
@@ -615,17 +626,33 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
 
+/* Returns the inertial force of a frame, times h'^2. */
+static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    const kiriPrediction* prediction = &solver->predictions.data[f];
+    const kiriPose* pose = &solver->poses.data[f];
+    kiriFrameRow force = { 0 };
+    force.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x));
+    if (kiriMechanics_IsAffine(&system->mechanics)) {
+        kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
+        force.by[1] = kiriVec3_Scale(-1.0, gradient.u);
+        force.by[2] = kiriVec3_Scale(-1.0, gradient.v);
+        force.by[3] = kiriVec3_Scale(-1.0, gradient.d);
+    } else {
+        force.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
+    }
+    return force;
+}
+
 static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     KIRI_ASSERT(f >= 0 && f < system->frameCount);
-    const kiriPrediction* prediction = &solver->predictions.data[f];
-    const kiriPose* pose = &solver->poses.data[f];
-    const kiriMassMoments* m = &prediction->moments;
+    const kiriMassMoments* m = &solver->predictions.data[f].moments;
     const double moments[4][4] = { { system->frames[f].mass, 0.0, 0.0, 0.0 },
                                    { 0.0, m->uu, m->uv, 0.0 },
                                    { 0.0, m->uv, m->vv, 0.0 },
                                    { 0.0, 0.0, 0.0, m->dd } };
-    kiriMat3 inertia = kiriPrediction_Inertia(prediction, &pose->A);
+    kiriMat3 inertia = kiriPrediction_Inertia(&solver->predictions.data[f], &solver->poses.data[f].A);
     double part = solver->stepping.part;
     double perTime = 1.0 / (part * part), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     for (int32_t r = 0; r < solver->size; ++r) {
@@ -641,16 +668,8 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);
     double* force = &solver->force.data[solver->size * f];
-    kiriFrameRow row = { { kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x)) } };
-    if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
-        row.by[1] = kiriVec3_Scale(-1.0, gradient.u);
-        row.by[2] = kiriVec3_Scale(-1.0, gradient.v);
-        row.by[3] = kiriVec3_Scale(-1.0, gradient.d);
-    } else {
-        row.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
-    }
-    kiriSolver_Reduce(solver, &row, force);
+    kiriFrameRow inertiaForce = InertiaForce(solver, system, f);
+    kiriSolver_Reduce(solver, &inertiaForce, force);
     for (int32_t n = 0; n < solver->size; ++n) {
         force[n] *= perTime;
     }
@@ -743,25 +762,6 @@ static void TurnSprings(const kiriYield* yield, const double* loss, const double
     kiriBentStrain_Write(&pull, pulls);
 }
 
-#define DAMPED_GAP 0.5     /* times force / length: added to the spring of a link's gap */
-#define DAMPED_TURN 0.02   /* times force * length: added to the springs of its turns */
-#define DAMPED_AGAIN 3.0  /* times as much after a step that was cut short */
-#define DAMPED_STRAIN 0.02 /* of a link: in an impact, the force of a larger strain does not count */
-
-/* Damps the Gauss-Newton step by the forces of a link. The matrix lacks the second derivatives of strains times these
-   forces: without damping, frames of loaded links turn too far, and the line search halves step after step. The minimum
-   does not change. */
-static void DampLink(const kiriSolver* solver, const kiriLink* link, const double* pulls, double* springs)
-{
-    double l = link->length, force = fabs(pulls[KIRI_STRETCH]) + fabs(pulls[KIRI_NORMAL_GAP]) + fabs(pulls[KIRI_NORMAL_STOP]);
-    force *= solver->search.scale < 1.0 ? DAMPED_AGAIN : 1.0;
-    force = kiriMin(DAMPED_STRAIN * l * springs[KIRI_STRETCH], force);
-    springs[KIRI_NORMAL_GAP] += DAMPED_GAP * force / l;
-    for (int e = KIRI_PLANE_BENDING; e <= KIRI_TWIST; ++e) {
-        springs[e] += DAMPED_TURN * force * l;
-    }
-}
-
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
 {
     const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
@@ -769,7 +769,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k], pulling[KIRI_MOST_STRAINS];
-    double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS] = { 0.0 };
+    double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
     DeriveStrains(solver, system, k, count, strain);
     double flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
     kiriElement_TakeOffsets(system, k, strain, pulling);
@@ -779,7 +779,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
        that runs into a stop. So after a step that was cut short, the stops that it ran into resist as springs of no
        length. */
     int rows = kiriElement_StrainCount(system, k), always = rows;
-    bool isStopping = solver->search.scale < 1.0 && solver->stopping.data[k];
+    bool isStopping = solver->search.scale < KIRI_SHORT_STEP && solver->stopping.data[k];
     if (kiriElement_Link(system, k) != NULL && !system->mechanics.planar) {
         always = kiriElement_IsRigidLink(system, k) ? KIRI_FOLD : rows - 1;
     }
@@ -789,9 +789,6 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
-    }
-    if (kiriElement_IsRigidLink(system, k) && !system->mechanics.planar && !(solver->search.now.flow > 0.0)) {
-        DampLink(solver, kiriElement_Link(system, k), pulls, springs);
     }
     if (flow > 0.0) {
         const kiriYield* yield = &system->flows[k];
@@ -842,9 +839,9 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
         TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
-        double stop = solver->search.scale < 1.0 && row->stopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
-        springs[KIRI_NORMAL_GAP] += stop;
-        springs[KIRI_NORMAL_STOP] = stop;
+        bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
+        springs[KIRI_NORMAL_GAP] += isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
+        springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
     }
     kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }
@@ -923,7 +920,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 #define FREE_SYSTEMS 2             /* systems of a body near contacts before its stored energy is limited */
 #define WORTHWHILE 1e-6            /* of the objective: smaller promises of a step that was cut short do not count */
 #define LASTING 1e-2               /* of the energy that flow takes: a larger promise counts, for a false flow stays */
-#define MOST_RISE 3.0              /* limit of the rise of the objective in the first step, relative to its promise */
+#define MOST_RISE 100.0            /* limit of the objective after the first step, relative to its start */
 #define MOST_TAKEN 0.5             /* of the kinetic energy: a body with a raised objective that loses more restarts */
 #define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit can take, */
 #define NEGLIGIBLE_GAIN 1e-9       /* plus this part of the whole energy */
@@ -947,7 +944,6 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
             longest = kiriMax(turn, longest);
         }
     }
-    search->enough += search->isFirst ? MOST_RISE * search->promise : 0.0;
     search->scale = LONGEST_ITERATION_TURN / longest;
     KIRI_ASSERT(!(search->scale > 1.0));
     kiriSolver_LimitByFriction(solver);
@@ -988,8 +984,21 @@ static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
     return true;
 }
 
-/* Takes one Gauss-Newton step, halved until the objective falls; the first step may raise it. Returns false if the matrix
-   has no factor. */
+/* Raises the limit for the first step to the objective of the free prediction, or MOST_RISE times the objective at its
+   start. */
+static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->trial.data[f] = solver->predictions.data[f].pose;
+    }
+    double rise = MOST_RISE * solver->search.now.objective;
+    double predicted = kiriObjective_Evaluate(solver, system, solver->trial.data).objective;
+    double allowed = kiriMax(predicted, rise) * (1.0 + KIRI_ROUNDING) + solver->search.noise;
+    solver->search.enough = kiriMax(allowed, solver->search.enough);
+}
+
+/* Takes one Gauss-Newton step, halved until the objective falls. The first step may instead raise the objective, see
+   AllowPrediction. Returns false if the matrix has no factor. */
 static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
     solver->search.now = kiriSolver_Assemble(solver, system);
@@ -1000,12 +1009,16 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_MoveContacts(solver, system);
     kiriStitches_Solve(solver, system);
     StartSearch(solver, system);
-    int halvings = 0;
-    while (!TryNewtonStep(solver, system) && halvings++ < HALVINGS) {
+    bool isTaken = TryNewtonStep(solver, system);
+    if (!isTaken && solver->search.isFirst) {
+        AllowPrediction(solver, system);
+        isTaken = TryNewtonStep(solver, system);
+    }
+    for (int halving = 0; !isTaken && halving < HALVINGS; ++halving) {
         solver->search.scale *= 0.5;
+        isTaken = TryNewtonStep(solver, system);
     }
     solver->search.isFirst = false;
-    solver->search.isTaken = halvings <= HALVINGS;
     solver->search.solved += 1;
     solver->solved += 1;
     kiriStitches_TakeForces(solver, system);
@@ -1047,19 +1060,13 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 }
 
 /* Lets links flow, from the poses of the elastic iteration on. At the poses before the step, a clamp that moves bends one
-   link by the whole step, and that link would take all of the flow. Where none flows, the objective does not change. */
+   link by the whole step, and that link would take all of the flow. */
 static void BeginFlow(kiriSolver* solver, const kiriSystem* system, int32_t done)
 {
     kiriSearch* search = &solver->search;
-    bool isFlowing = !search->isTaken || system->clampCount > 0; /* else the strains of links are known */
-    for (int32_t k = 0; !isFlowing && k < system->linkCount; ++k) {
-        isFlowing = kiriElement_Flow(system, k, &solver->nowStrain.data[KIRI_MOST_STRAINS * k], true) > 0.0;
-    }
     search->mayFlow = true;
-    if (isFlowing) {
-        search->now = kiriObjective_Evaluate(solver, system, solver->poses.data);
-        search->wanted = search->now.flow > 0.0 ? kiriMax(done + 1, search->wanted) : search->wanted;
-    }
+    search->now = kiriObjective_Evaluate(solver, system, solver->poses.data);
+    search->wanted = search->now.flow > 0.0 ? kiriMax(done + 1, search->wanted) : search->wanted;
 }
 
 /* Repeats the step by backward Euler. */
