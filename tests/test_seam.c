@@ -764,8 +764,19 @@ static void TestArguments(void** state)
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "lineA leaves");
     d = SeamDef(pair.a, leftEdge, pair.b, outside, 2);
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "lineB leaves");
-    d = SeamDef(pair.a, point, pair.b, point, 2);
+    d = SeamDef(pair.a, point, pair.b, leftEdge, 2);
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "no length");
+    const float doubled[8] = { 0.5f, 0.0f, 0.5f, 0.0f, 0.5f, 0.5f, 0.5f, 0.5f };
+    kiriSeam seam;
+    kiriStitch stitches[MOST_STITCHES];
+    d = SeamDef(pair.a, doubled, pair.b, leftEdge, 4);
+    d.countB = 2;
+    d.stiffness = 0.01f;
+    OK(kiriCreateSeam(host.world, &d, &seam));
+    for (int32_t k = 0, count = GetStitches(&host, seam, stitches); k < count; ++k) {
+        assert_true(fabs((double)stitches[k].angle) < 1e-3); /* points twice in a line: no segment without a side */
+    }
+    OK(kiriDestroySeam(host.world, seam));
     d = SeamDef(pair.a, bad, pair.b, rightEdge, 2);
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "NaN");
     d = SeamDef(pair.a, NULL, pair.b, rightEdge, 2);

@@ -2941,7 +2941,7 @@ var poolWorldCreateSeam pool[struct {
 }]
 
 // Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 	var made0 Seam
 	if err := w.check(); err != nil {
@@ -2960,7 +2960,7 @@ func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 }
 
 // Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 func (s Seam) Destroy() (bool, error) {
 	if err := s.World.check(); err != nil {
 		return false, err

@@ -1012,9 +1012,9 @@ export class SeamDef {
     /** 2 floats a point, m, in the material, such as its edge; copied */
     lineA: Float32Array;
     lineB: Float32Array;
-    /** points: 2 or more */
+    /** points: 2 to 65536 */
     countA: number;
-    /** points: 2 or more */
+    /** points: 2 to 65536 */
     countB: number;
     /** 2 to 4096; 0 (default): three for two distances of frames */
     stitches: number;
@@ -1350,7 +1350,7 @@ export class World {
     /** Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
     beginBlade(sheet?: Sheet | null): Blade;
     /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-     *  KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+     *  KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
     createSeam(def: SeamDefGiven): Seam;
     /** Writes up to `capacity` ids of the world's seams; *count is how many there are. */
     getSeams(): Seam[];
@@ -1631,7 +1631,7 @@ export class Seam {
     /** Two that are the same have the same id. */
     readonly id: number;
     /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-     *  KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+     *  KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
     destroy(): ResultCode;
     /** Sets stiffness and restAngle, as in the def. */
     setHinge(stiffness: number, restAngle: number): ResultCode;

@@ -1659,7 +1659,7 @@ function kiri.defaultSeamDef(def)
 end
 
 --- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+--- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 function World:createSeam(def)
     local world = self
     local result = C.kiriCreateSeam(world.c, struct_of(world, def, "kiriSeamDef"), out.Seam)
@@ -1668,7 +1668,7 @@ function World:createSeam(def)
 end
 
 --- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+--- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 function Seam:destroy()
     local world = self.world
     local result = C.kiriDestroySeam(world.c, self.id)

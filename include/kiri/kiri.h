@@ -893,7 +893,7 @@ typedef struct kiriSeamDef {
     kiriSheet sheetA, sheetB;   /* of the same model, and not planar */
     const float* lineA;         /* 2 floats a point, m, in the material, such as its edge; copied */
     const float* lineB;
-    int32_t countA, countB;     /* points: 2 or more */
+    int32_t countA, countB;     /* points: 2 to 65536 */
     int32_t stitches;           /* 2 to 4096; 0 (default): three for two distances of frames */
     float stiffness; /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
     float restAngle; /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
@@ -904,7 +904,7 @@ typedef struct kiriSeamDef {
 KIRI_API void kiriDefaultSeamDef(kiriSeamDef* def);
 
 /* Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-   KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+   KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
 KIRI_API kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
 KIRI_API kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
 

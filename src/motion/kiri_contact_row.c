@@ -131,6 +131,7 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
 {
     const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
+    KIRI_ASSERT(share > 0.0);
     step->start = kiriContact_Point(system, step, poses);
     kiriVec3 off = kiriVec3_Sub(step->start, kiriSystem_Blend(system, all, count, poses));
     step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step, step->start));
@@ -259,6 +260,7 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
 static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
 {
     double mass = 0.0;
+    KIRI_ASSERT(first >= 0 && count > 0 && first + count <= system->frameCount);
     for (int32_t f = first; f < first + count; ++f) {
         mass += system->frames[f].mass;
     }

@@ -332,6 +332,16 @@ static int32_t CountPaid(const kiriWorld* world, const kiriSheetData* sheet, int
     return *cost <= samples ? sheet->leaving.count : KIRI_NONE;
 }
 
+bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet)
+{
+    bool some = false;
+    KIRI_ASSERT(sheet->layout.pieces.count > 0);
+    KIRI_EACH_INDEX_WHILE(!some, p, sheet->layout.pieces) {
+        some = !sheet->layout.pieces.data[p].isGone && !IsLeaving(world, sheet, p);
+    }
+    return some;
+}
+
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
     if (!kiriParts_AreDue(sheet)) {

@@ -177,7 +177,10 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
     KIRI_ASSERT(count >= 2 && along >= 0.0);
     int32_t i = 1;
     kiriVec2 from = LinePoint(line, 0), way = kiriVec2_Sub(LinePoint(line, 1), from);
-    for (; i + 1 < count && along > kiriVec2_Length(way); ++i) {
+    while (count > 2 && memcmp(&line[2 * count - 2], &line[2 * count - 4], 2 * sizeof(float)) == 0) {
+        --count;
+    }
+    for (; i + 1 < count && (along > kiriVec2_Length(way) || !(kiriVec2_Length(way) > 0.0)); ++i) {
         along -= kiriVec2_Length(way);
         from = LinePoint(line, i);
         way = kiriVec2_Sub(LinePoint(line, i + 1), from);
@@ -264,9 +267,9 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
 {
     kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
                                  kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
-    double length = kiriMax(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
+    double length = kiriMin(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
     double spacing = kiriMin(FrameSpacing(sheets[0]), FrameSpacing(sheets[1]));
-    *why = !(length > 0.0) ? "def.lineA and def.lineB have no length"
+    *why = !(length > 0.0) ? "def.lineA or def.lineB has no length"
            : sheets[0]->settings.mechanics.planar || sheets[1]->settings.mechanics.planar
                ? "def names a planar sheet: it cannot be sewn"
            : sheets[0]->settings.mechanics.model != sheets[1]->settings.mechanics.model

@@ -4,8 +4,10 @@
 #include "../sheet/kiri_update.h"
 #include "kiri_blade.h"
 #include "kiri_call.h"
+#include "kiri_part.h"
 #include "kiri_seam.h"
 
+#include <float.h>
 #include <string.h>
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
@@ -235,14 +237,17 @@ static bool IsPool(const kiriPool* pool, uint32_t kind)
 /* Returns true if the points of all stitches are in sheets that can be sewn. */
 static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
 {
-    bool isFine = seam->breakForce >= 0.0 && seam->bending >= 0.0 && fabs(seam->restAngle) <= KIRI_MOST_FOLD &&
+    bool isFine = seam->breakForce >= 0.0 && seam->breakForce <= (double)FLT_MAX && seam->bending >= 0.0 &&
+                  seam->bending <= (double)FLT_MAX && fabs(seam->restAngle) <= KIRI_MOST_FOLD &&
                   seam->stitches.count > 0 && seam->rows.capacity >= seam->stitches.count;
     KIRI_EACH_WHILE(isFine, const kiriStitchData, stitch, seam->stitches) {
         const kiriSheetData* sheets[2];
-        isFine = stitch->length > 0.0 && stitch->share > 0.0;
+        isFine = stitch->length > 0.0 && stitch->length <= (double)FLT_MAX && stitch->share > 0.0 &&
+                 stitch->share <= 1.0;
         for (int end = 0; isFine && end < 2; ++end) {
             sheets[end] = kiriStitch_Sheet(world, stitch, end);
-            isFine = sheets[end] != NULL && !sheets[end]->settings.mechanics.planar &&
+            isFine = fabs(kiriVec2_Length(stitch->inward[end]) - 1.0) < 1e-6 && sheets[end] != NULL &&
+                     !sheets[end]->settings.mechanics.planar &&
                      kiriMesh_Locate(&sheets[end]->mesh, stitch->at[end]) != KIRI_NONE &&
                      sheets[end]->settings.mechanics.model == sheets[0]->settings.mechanics.model;
         }
@@ -250,7 +255,7 @@ static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
     return isFine;
 }
 
-/* Returns true if settings are legal, and leaving pieces are pieces of this sheet. */
+/* Returns true if settings are legal, and leaving pieces are pieces of this sheet, but not all. */
 static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriSettings* settings = &sheet->settings;
@@ -264,7 +269,7 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
         const kiriSlot* slot = kiriPool_Find(&world->frameIds, *at);
         isFine = slot == NULL || slot->owner == sheet;
     }
-    return isFine;
+    return isFine && kiriParts_StaySome(world, sheet);
 }
 
 /* ---- The format -------------------------------------------------------------------------------------------------- */

@@ -754,7 +754,7 @@ namespace Kiri
         }
 
         /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-        /// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.</summary>
+        /// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.</summary>
         public Seam CreateSeam(float[] lineA, float[] lineB, SeamDef @def)
         {
             @def.countA = lineA.Length / 2;
@@ -1590,7 +1590,7 @@ namespace Kiri
         public static implicit operator SeamId(Seam handle) { return handle.Id; }
 
         /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-        /// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.</summary>
+        /// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroySeam(World.Handle, Id));

@@ -1179,9 +1179,9 @@ namespace Kiri
         /// <summary>2 floats a point, m, in the material, such as its edge; copied</summary>
         internal float* lineA;
         internal float* lineB;
-        /// <summary>points: 2 or more</summary>
+        /// <summary>points: 2 to 65536</summary>
         internal int countA;
-        /// <summary>points: 2 or more</summary>
+        /// <summary>points: 2 to 65536</summary>
         internal int countB;
         /// <summary>2 to 4096; 0 (default): three for two distances of frames</summary>
         public int Stitches;

@@ -400,8 +400,8 @@ kiri.DRAW_ALL = 2047
 ---@field sheetB? kiri.Sheet # of the same model, and not planar
 ---@field lineA? number[]|ffi.cdata* # 2 floats a point, m, in the material, such as its edge; copied
 ---@field lineB? number[]|ffi.cdata*
----@field countA? integer # points: 2 or more
----@field countB? integer # points: 2 or more
+---@field countA? integer # points: 2 to 65536
+---@field countB? integer # points: 2 to 65536
 ---@field stitches? integer # 2 to 4096; 0 (default): three for two distances of frames
 ---@field stiffness? number # N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
 ---@field restAngle? number # rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
@@ -1237,13 +1237,13 @@ function Sheet:getPins() end
 function kiri.defaultSeamDef(def) end
 
 --- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+--- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 ---@param def? kiri.SeamDef
 ---@return kiri.Seam
 function World:createSeam(def) end
 
 --- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+--- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
 ---@return boolean # work is left for later ticks
 function Seam:destroy() end
 

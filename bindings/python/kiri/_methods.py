@@ -179,7 +179,7 @@ class World:
 
     def create_seam(self, **fields: Any) -> kiri.Seam:
         """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
-        line leaves the material; a sheet is planar; the models differ.
+        line has no length or leaves the material; a sheet is planar; the models differ.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSeamDef', fields, kept)
@@ -604,7 +604,7 @@ class Blade:
 class Seam:
     def destroy(self) -> int:
         """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
-        line leaves the material; a sheet is planar; the models differ.
+        line has no length or leaves the material; a sheet is planar; the models differ.
         """
         return self.world.call('kiriDestroySeam', self.id)
 

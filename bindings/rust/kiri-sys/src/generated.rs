@@ -867,9 +867,9 @@ pub struct kiriSeamDef {
     /// 2 floats a point, m, in the material, such as its edge; copied
     pub lineA: *const f32,
     pub lineB: *const f32,
-    /// points: 2 or more
+    /// points: 2 to 65536
     pub countA: i32,
-    /// points: 2 or more
+    /// points: 2 to 65536
     pub countB: i32,
     /// 2 to 4096; 0 (default): three for two distances of frames
     pub stitches: i32,
@@ -1412,12 +1412,12 @@ unsafe extern "C" {
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultSeamDef(def: *mut kiriSeamDef);
     /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models
-    /// differ.
+    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is
+    /// planar; the models differ.
     pub fn kiriCreateSeam(world: *mut kiriWorld, def: *const kiriSeamDef, seam: *mut kiriSeam) -> kiriResult;
     /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models
-    /// differ.
+    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is
+    /// planar; the models differ.
     pub fn kiriDestroySeam(world: *mut kiriWorld, seam: kiriSeam) -> kiriResult;
     /// Sets stiffness and restAngle, as in the def.
     pub fn kiriSeam_SetHinge(world: *mut kiriWorld, seam: kiriSeam, stiffness: f32, restAngle: f32) -> kiriResult;

@@ -2554,8 +2554,8 @@ impl World {
     }
 
     /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line leaves the material; a sheet is planar;
-    /// the models differ.
+    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line has no length or leaves the material; a
+    /// sheet is planar; the models differ.
     pub fn create_seam(&mut self, def: &SeamDef<'_>) -> Result<Seam> {
         let mut seam = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3303,8 +3303,8 @@ impl Blade {
 
 impl Seam {
     /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line leaves the material; a sheet is planar;
-    /// the models differ.
+    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line has no length or leaves the material; a
+    /// sheet is planar; the models differ.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world)?;
