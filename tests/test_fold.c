@@ -640,6 +640,22 @@ static void IncrementalEqualsFromScratch(void** state)
     }
 }
 
+/* Vertices along a fold are rounded, by more than a small snap distance. The fold is whole, and its pieces come off. */
+static void SmallSnapsJoinFolds(void** state)
+{
+    static const float snaps[3] = { 1e-6f, 1e-9f, 1e-12f };
+    for (int k = 0; k < 3; ++k) {
+        kiriFold fold = { { -0.1f, 0.137f }, { 1.1f, 0.871f }, 0.01f, 0.0f, 0.0f };
+        kiriSheetDef def = StiffDef();
+        START_HOST(host);
+        def.frameCount = 12;
+        def.snapDistance = snaps[k];
+        kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 16, 16, &fold, 1);
+        assert_true(fabs(StateOf(&host, sheet, 0).length - 1.172) < 0.01);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -653,6 +669,7 @@ int main(void)
         cmocka_unit_test(FoldsKeepAnAngle),
         cmocka_unit_test(FoldsAreAddedLater),
         cmocka_unit_test(VerticesFollowRigidFacets),
+        cmocka_unit_test(SmallSnapsJoinFolds),
         cmocka_unit_test(WaterbombFolds),
         cmocka_unit_test(IncrementalEqualsFromScratch),
     };

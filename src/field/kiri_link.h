@@ -45,11 +45,14 @@ static inline kiriVec2 kiriLink_FromEdge(const kiriLink* link, kiriVec2 parts)
     return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
 }
 
-/* Orders links by their regions; folds come last. */
+/* Orders links by their regions; folds come last, and in their order. */
 static inline bool kiriLink_IsBefore(const kiriLink* a, const kiriLink* b)
 {
     bool isFold = a->fold != 0;
-    return isFold != (b->fold != 0) ? !isFold : a->i != b->i ? a->i < b->i : a->j < b->j;
+    if (isFold != (b->fold != 0)) {
+        return !isFold;
+    }
+    return a->i != b->i ? a->i < b->i : a->j != b->j ? a->j < b->j : a->fold < b->fold;
 }
 
 /* Sets stiffness and rest angle of the links of a fold. */

@@ -345,6 +345,7 @@ bool kiriBuild_Commit(kiriSheetData* sheet)
 
 /* Distance from the line within which its creases are, in snap distances: ends are within 3/2 (kiri_cut.h). */
 #define FOLD_REACH 2.0
+#define ROUNDED_REACH 32.0 /* lattice steps: the least, for vertices along a line are rounded */
 
 kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* fault)
 {
@@ -353,7 +354,7 @@ kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* 
     bool isInside = kiriCut_Clip(mesh, &from, &to);
     kiriFoldLine line = { kiriMesh_Snap(mesh, from),
                           kiriMesh_Snap(mesh, to),
-                          FOLD_REACH * sheet->settings.snap,
+                          kiriMax(FOLD_REACH * sheet->settings.snap, ROUNDED_REACH),
                           fold->stiffness,
                           fold->restAngle,
                           fold->yieldMoment,
