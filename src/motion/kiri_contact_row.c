@@ -269,12 +269,13 @@ static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
 
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
+    double mass = MassOf(system, 0, system->frameCount);
     solver->contacts.count = 0;
     for (int32_t n = 0; n < solver->islandCount; ++n) {
         const kiriIslandBody* member = &solver->islandBodies[n];
         const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];
         int32_t k = body->contact, first = body->island, count = body->frames.count;
-        double share = k != KIRI_NONE ? MassOf(system, first, count) / MassOf(system, 0, system->frameCount) : 0.0;
+        double share = k != KIRI_NONE ? MassOf(system, first, count) / mass : 0.0;
         for (; k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
             BeginContact(solver, system, member, k, share);
         }
