@@ -46,15 +46,6 @@ static double KeptDistance(const kiriBody* a, const kiriBody* b)
 
 /* ---- Contacts ---- */
 
-static kiriVec3 SeenAt(const kiriPlace3* place)
-{
-    kiriVec3 x = { 0 };
-    for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
-        x = kiriVec3_AddScaled(x, place->share[k], kiriSurface_At(&place->sheet->seen.surface, place->vertex[k]));
-    }
-    return x;
-}
-
 /* Adds a contact to the sheet of the upper place. Its plane is fixed unless kiriIslands_Prepare joins it to the lower
    place. */
 static bool AddPlaneTouch(kiriPairTouch* pair)
@@ -68,7 +59,9 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
     memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
     memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     touch.normal = pair->normal;
-    touch.offset = kiriVec3_Dot(pair->normal, SeenAt(&pair->lower)) + pair->distance;
+    const kiriPlace3* lower = &pair->lower;
+    kiriVec3 under = kiriSurface_Blend(&lower->sheet->seen.surface, lower->vertex, lower->share);
+    touch.offset = kiriVec3_Dot(pair->normal, under) + pair->distance;
     touch.velocity = pair->velocity;
     touch.friction = sqrt(a->friction * b->friction);
     touch.pushSpeed = pair->isFold ? FOLD_PUSH_SPEED : PUSH_SPEED;
