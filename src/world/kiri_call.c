@@ -219,27 +219,26 @@ static const kiriValue contactMembers[] = {
 #undef OF
 static const kiriStruct contactStruct = STRUCT_OF(kiriContact, 0, NULL, contactMembers);
 
+#define ID_IN(member, ids, ...)                                                                                        \
+    {                                                                                                                  \
+        .form = KIRI_FORM_ID, NUMBERS_IN(member), .refers = (int32_t)offsetof(kiriWorld, ids), __VA_ARGS__             \
+    }
 #define OF kiriPinDef
 static const kiriValue pinDefMembers[] = {
     FLOATS_IN(restPoint, ANY_FINITE),
     FLOATS_IN(target, ANY_FINITE),
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(breakForce, FROM_0),
-    { .form = KIRI_FORM_ID, NUMBERS_IN(obstacle), .refers = (int32_t)offsetof(kiriWorld, obstacleIds),
-      .isOptional = true },
+    ID_IN(obstacle, obstacleIds, .isOptional = true),
 };
 #undef OF
 static const kiriStruct pinDefStruct =
     STRUCT_OF(kiriPinDef, KIRI_COOKIE(kiriPinDef), "kiriDefaultPinDef", pinDefMembers);
 
-#define SHEET_IN(member)                                                                                               \
-    {                                                                                                                  \
-        .form = KIRI_FORM_ID, NUMBERS_IN(member), .refers = (int32_t)offsetof(kiriWorld, sheetIds)                     \
-    }
 #define OF kiriSeamDef
 static const kiriValue seamDefMembers[] = {
-    SHEET_IN(sheetA),
-    SHEET_IN(sheetB),
+    ID_IN(sheetA, sheetIds, .isOptional = false),
+    ID_IN(sheetB, sheetIds, .isOptional = false),
     INTS_IN(countA, WITHIN(2, 65536)),
     INTS_IN(countB, WITHIN(2, 65536)),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineA, 2, countA, ANY_FINITE),
