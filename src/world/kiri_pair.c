@@ -479,6 +479,13 @@ static bool AreSeveral(const kiriWorld* world)
     return count > 1;
 }
 
+static kiriBox Widened(const kiriBox* box, double by)
+{
+    kiriVec3 all = kiriVec3_Make(by, by, by);
+    kiriBox wide = { kiriVec3_Sub(box->lower, all), kiriVec3_Add(box->upper, all) };
+    return wide;
+}
+
 /* Returns true if something awake may come near the sheet in the tick. Farther sheets that sleep do not become bodies.
    */
 static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kiriSheetData* sheet, double dt)
@@ -486,8 +493,7 @@ static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kir
     kiriBox box = kiriSheet_Box(sheet);
     double speed = waking->speed + FastestOf(sheet) + dt * kiriVec3_Length(world->gravity);
     double reach = waking->thickness + sheet->settings.contactThickness + dt * speed;
-    const kiriVec3 wider = { reach, reach, reach };
-    box = (kiriBox){ kiriVec3_Sub(box.lower, wider), kiriVec3_Add(box.upper, wider) };
+    box = Widened(&box, reach);
     return kiriBox_Meet(&box, &waking->box);
 }
 
@@ -522,13 +528,6 @@ static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiri
         speed = kiriVec3_Length(apart) + a->stir + b->stir;
     }
     return 2.0 * KeptDistance(a, b) + dt * (speed + falling);
-}
-
-static kiriBox Widened(const kiriBox* box, double by)
-{
-    kiriVec3 all = kiriVec3_Make(by, by, by);
-    kiriBox wide = { kiriVec3_Sub(box->lower, all), kiriVec3_Add(box->upper, all) };
-    return wide;
 }
 
 static bool Holds(const kiriBox* box, kiriVec3 x)
