@@ -640,6 +640,53 @@ static void IncrementalEqualsFromScratch(void** state)
     }
 }
 
+/* Sets folds in one tick of a cut that takes many. Returns true if that was the last one of them. */
+static bool SetInTick(int32_t when)
+{
+    enum { FOLDS = 5 };
+    const float none[3] = { 0.0f, 0.0f, 0.0f }, cut[4] = { -0.01f, 0.02f, 0.11f, 0.03f };
+    const kiriBudget budget = { 16, 400, 100, 0 };
+    kiriFold folds[FOLDS];
+    kiriSheetDef def = StiffDef();
+    Host host;
+    Host_Start(&host);
+    host.every = 50;
+    for (int f = 0; f < FOLDS; ++f) {
+        float u = 0.1f * (float)(f + 1) / (FOLDS + 1);
+        folds[f] = (kiriFold){ { u, -0.01f }, { u, 0.06f }, 0.01f, 0.0f, 0.0f };
+    }
+    OK(kiriWorld_SetGravity(host.world, none));
+    def.material.airDamping = 30.0f;
+    kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 10, 5, folds, FOLDS);
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    Host_Cut(&host, sheet, cut, 2);
+    int32_t tick = 0;
+    for (; Host_Tick(&host, Dt, 2) == KIRI_PENDING; ++tick) {
+        for (int f = 0; tick == when && f < FOLDS; ++f) {
+            OK(kiriSheet_SetFold(host.world, sheet, f, 0.02f, 0.3f));
+        }
+    }
+    assert_in_range(tick, 20, 200);
+    for (int t = 0; t < 60 && tick > when; ++t) {
+        OK(Host_Tick(&host, Dt, 2));
+    }
+    for (int f = 0; f < FOLDS && tick > when; ++f) {
+        assert_true(fabs(StateOf(&host, sheet, f).angle - 0.3) < 0.03);
+    }
+    Host_Stop(&host);
+    return tick <= when;
+}
+
+/* Folds keep what is set, also while links are being made. */
+static void FoldsAreSetInACut(void** state)
+{
+    int32_t when = 0;
+    (void)state;
+    while (!SetInTick(when)) {
+        ++when;
+    }
+}
+
 /* Vertices along a fold are rounded, by more than a small snap distance. The fold is whole, and its pieces come off. */
 static void SmallSnapsJoinFolds(void** state)
 {
@@ -670,6 +717,7 @@ int main(void)
         cmocka_unit_test(FoldsAreAddedLater),
         cmocka_unit_test(VerticesFollowRigidFacets),
         cmocka_unit_test(SmallSnapsJoinFolds),
+        cmocka_unit_test(FoldsAreSetInACut),
         cmocka_unit_test(WaterbombFolds),
         cmocka_unit_test(IncrementalEqualsFromScratch),
     };

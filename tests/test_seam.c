@@ -488,6 +488,37 @@ static void TestBagHolds(void** state)
     DropBall(0.5f, 0.02f);
 }
 
+/* A budget of motion moves one pair in a tick, and the other in the next. Stitches keep the force of the last tick that
+   moved them. */
+static void TestForcesStay(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    Pair pairs[2];
+    for (int k = 0; k < 2; ++k) {
+        def.position[0] = 0.0f;
+        def.position[1] = (float)k;
+        pairs[k] = Pair_Make(&host, &def, 6, 6);
+        HoldTop(&host, pairs[k].a);
+    }
+    const kiriBudget budget = { .iterations = 4 };
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    int32_t left = 0;
+    for (int32_t tick = 0; tick < 60; ++tick) {
+        kiriResult result = Host_Tick(&host, dt, 2);
+        left += result == KIRI_PENDING;
+        for (int k = 0; k < 2 && tick > 20; ++k) {
+            double gap, force;
+            Measure(&host, pairs[k].seam, &gap, &force);
+            assert_true(force > 0.0);
+        }
+    }
+    assert_true(left > 20);
+    Host_Stop(&host);
+}
+
 /* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
 
 /* A cut through both sheets parts the seam. Pieces become sheets, and are destroyed. */
@@ -784,7 +815,7 @@ static void TestArguments(void** state)
     d = SeamDef(pair.a, leftEdge, pair.b, rightEdge, 1);
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "countA");
     d = SeamDef(pair.a + 100, leftEdge, pair.b, rightEdge, 2);
-    Refused(&host, &d, KIRI_ERROR_ID, "sheetA");
+    Refused(&host, &d, KIRI_ERROR_ID, "there is no sheet with this id");
     d = good;
     d.stitches = -1;
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stitches");
@@ -814,7 +845,7 @@ int main(void)
         cmocka_unit_test(TestRing),     cmocka_unit_test(TestPieces), cmocka_unit_test(TestStrength),
         cmocka_unit_test(TestBreak),    cmocka_unit_test(TestSaves),  cmocka_unit_test(TestReplay),
         cmocka_unit_test(TestMemory),   cmocka_unit_test(TestRanges), cmocka_unit_test(TestArguments),
-        cmocka_unit_test(TestBagHolds),
+        cmocka_unit_test(TestBagHolds), cmocka_unit_test(TestForcesStay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

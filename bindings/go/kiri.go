@@ -646,7 +646,8 @@ type Fold struct {
 	Stiffness float32
 	// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
 	RestAngle float32
-	// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
+	// N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
+	// Only in a material with a yieldStress
 	YieldMoment float32
 }
 

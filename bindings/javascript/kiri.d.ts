@@ -731,7 +731,8 @@ export class Fold {
     stiffness: number;
     /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
     restAngle: number;
-    /** N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress */
+    /** N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
+     *  Only in a material with a yieldStress */
     yieldMoment: number;
 }
 /** What a host gives as Fold: what is left out is 0. */
@@ -744,7 +745,8 @@ export interface FoldGiven {
     stiffness?: number;
     /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
     restAngle?: number;
-    /** N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress */
+    /** N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
+     *  Only in a material with a yieldStress */
     yieldMoment?: number;
 }
 

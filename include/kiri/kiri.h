@@ -469,8 +469,8 @@ typedef struct kiriFold {
     float from[2], to[2]; /* m */
     float stiffness;      /* N m/rad per metre of the line, 0 or more; 0: a free hinge */
     float restAngle;      /* rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
-    float yieldMoment;    /* N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
-                             with a yieldStress */
+    float yieldMoment;    /* N m per metre: most that it carries, and more with the material's hardening; an angle beyond
+                             stays. 0: no limit. Only in a material with a yieldStress */
 } kiriFold;
 
 /* Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is not

@@ -1489,9 +1489,6 @@ static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32
     link->i = region[isLeft ? 0 : 1];
     link->j = region[isLeft ? 1 : 0];
     link->fold = fold + 1;
-    link->hinge = line->stiffness;
-    link->rest = line->restAngle;
-    link->yield = line->yieldMoment;
     link->tangent = isLeft ? along : kiriVec2_Scale(-1.0, along);
     link->normal = kiriVec2_Make(link->tangent.y, -link->tangent.x);
     link->centroid = kiriVec2_AddScaled(start, middle, along);
@@ -1516,12 +1513,16 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
     while (kiriStrips_Next(&strips)) {
         KIRI_EACH_INDEX(i, strips) {
             int32_t square = strips.square + i * strips.stride;
-            work->due += 1;
+            int32_t nodes = kiriSquares_CountNodes(&mesh->squares, square);
+            work->due += 1 + nodes;
             KIRI_EACH_NODE(node, &mesh->squares, square) {
                 KIRI_EACH_CORNER(k) {
                     int32_t h = 3 * mesh->squares.nodes.data[node].triangle + k;
-                    if (kiriMesh_IsCrease(mesh, h) && !AddFoldPart(u, line, square, h)) {
-                        return false;
+                    if (kiriMesh_IsCrease(mesh, h)) {
+                        work->due += nodes; /* its regions are looked for among them */
+                        if (!AddFoldPart(u, line, square, h)) {
+                            return false;
+                        }
                     }
                 }
             }
@@ -1553,7 +1554,7 @@ static bool IsFoldBefore(const void* context, int32_t a, int32_t b)
     return x->i == y->i && x->j == y->j ? a < b : kiriLink_IsBefore(x, y);
 }
 
-/* Appends the links of folds to the others. */
+/* Appends the links of folds to the others, with what the host has set of each fold by now. */
 static bool AppendFoldLinks(const LinkUpdate* u)
 {
     kiriLinks* links = u->links;
@@ -1564,7 +1565,11 @@ static bool AppendFoldLinks(const LinkUpdate* u)
         return false;
     }
     KIRI_EACH_INDEX(k, work->order) {
-        const kiriNewLink* made = &work->made.data[work->order.data[k]];
+        kiriNewLink* made = &work->made.data[work->order.data[k]];
+        const kiriFoldLine* line = &u->mesh->folds.data[made->link.fold - 1];
+        made->link.hinge = line->stiffness;
+        made->link.rest = line->restAngle;
+        made->link.yield = line->yieldMoment;
         while (old < links->links.count && kiriLink_IsBefore(&links->links.data[old], &made->link)) {
             ++old;
         }

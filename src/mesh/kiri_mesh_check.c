@@ -227,7 +227,7 @@ static bool AreFans(const kiriMeshData* mesh)
 static bool AreFolds(const kiriMeshData* mesh)
 {
     enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
-    bool areFine = true;
+    bool areFine = mesh->folds.count <= KIRI_MOST_FOLDS;
     KIRI_EACH_WHILE(areFine, const kiriFoldLine, fold, mesh->folds) {
         const int32_t ends[4] = { fold->from.x, fold->from.y, fold->to.x, fold->to.y };
         for (int k = 0; k < 4; ++k) {

@@ -693,12 +693,13 @@ static void ListDetail(kiriSheetData* sheet)
         detail->pins = pins;
         detail->vertices.count = 0;
         KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
-            kiriLatticePoint at = sheet->mesh.vertices.data[v].at;
-            bool isOnFold = false; /* both sides stay together */
-            KIRI_EACH_WHILE(!isOnFold, const kiriFoldLine, fold, sheet->mesh.folds) {
-                isOnFold = kiriFoldLine_Has(fold, at, at);
+            detail->moving.data[4 * v + 3] = 1.0f;
+        }
+        for (int32_t h = 0; sheet->mesh.folds.count > 0 && h < 3 * sheet->mesh.triangles.count; ++h) {
+            if (kiriMesh_IsCrease(&sheet->mesh, h)) { /* both sides stay together */
+                detail->moving.data[4 * kiriMesh_Tail(&sheet->mesh, h) + 3] = 0.0f;
+                detail->moving.data[4 * kiriMesh_Tail(&sheet->mesh, kiriEdge_Next(h)) + 3] = 0.0f;
             }
-            detail->moving.data[4 * v + 3] = isOnFold ? 0.0f : 1.0f;
         }
         KIRI_EACH(const kiriPinData, pin, sheet->pins) {
             MarkHeld(sheet, pin->at, pin->to, 1.0);

@@ -636,6 +636,17 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
     return isFine;
 }
 
+/* Returns true if links join the sides of all creases to one piece. */
+static bool AreCreasesJoined(const kiriSheetData* sheet)
+{
+    bool areJoined = true;
+    for (int32_t h = 0; areJoined && h < 3 * sheet->mesh.triangles.count; ++h) {
+        areJoined = !kiriMesh_IsCrease(&sheet->mesh, h) ||
+                    kiriPiece_OfTriangle(sheet, h / 3) == kiriPiece_OfTriangle(sheet, kiriMesh_Twin(&sheet->mesh, h) / 3);
+    }
+    return areJoined;
+}
+
 /* ---- Derived data ------------------------------------------------------------------------------------------------ */
 
 void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
@@ -654,7 +665,7 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
         return;
     }
     bool isBad = false, isMade = kiriRemake_Field(sheet, &isBad);
-    kiriArchive_Expect(archive, !isBad && (!isMade || HaveArraysRoom(sheet)));
+    kiriArchive_Expect(archive, !isBad && (!isMade || (HaveArraysRoom(sheet) && AreCreasesJoined(sheet))));
     archive->isShort |= !isMade && !archive->isBad;
     if (kiriArchive_HasFailed(archive)) {
         return;

@@ -794,7 +794,7 @@ kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t in
     *state = (kiriFoldState){ fold, 0.0, 0.0 };
     KIRI_EACH_INDEX(k, found->links.links) {
         const kiriLink* link = &found->links.links.data[k];
-        if (link->fold == index + 1) {
+        if (link->fold == index + 1 && !kiriSheet_IsGone(found, link->i)) {
             const kiriFrameData* const frames[2] = { &found->frames.data[link->i], &found->frames.data[link->j] };
             const kiriPose ends[2] = { kiriPose_Of(frames[0]), kiriPose_Of(frames[1]) };
             const kiriPose* const poses[2] = { &ends[0], &ends[1] };

@@ -549,7 +549,8 @@ static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, con
         result = kiriStruct_Check(value->of, "", world, at, fault);
     } else if (value->form == KIRI_FORM_ID && !(value->isOptional && *(const uint32_t*)at == 0) &&
                FindById(value, world, at) == NULL) {
-        KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at, value->name);
+        KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at,
+                 value->refers == (int32_t)offsetof(kiriWorld, sheetIds) ? "sheet" : value->name);
         result = KIRI_ERROR_ID;
     }
     const char* why = result == KIRI_OK && value->fault != NULL ? value->fault(at) : NULL;

@@ -1101,13 +1101,16 @@ static double LookAtCrossing(void* context, int32_t triangle)
     kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
     kiriVec3 at = kiriVec3_AddScaled(p, touch.upper.share[1], kiriVec3_Sub(q, p));
     kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
+    touch.upper.vertex[1] = search->b;
+    touch.upper.share[0] = 1.0 - touch.upper.share[1];
+    touch.lower = TrianglePlace(sheet, triangle, near.share);
+    if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * sheet->settings.foldThickness)) {
+        return search->least[0];
+    }
     bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
     KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
     sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
     near.vertex = touch.upper.share[1] < 0.5 ? search->a : search->b;
-    touch.upper.vertex[1] = search->b;
-    touch.upper.share[0] = 1.0 - touch.upper.share[1];
-    touch.lower = TrianglePlace(sheet, triangle, near.share);
     touch.key = KeyOfFold(sheet, search->a, search->b, triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = FoldDistance(sheet, &near, 0.0);
@@ -1143,7 +1146,7 @@ static bool TouchTangles(FoldSearch* search)
     return search->ok;
 }
 
-/* Adds touches of probes and their near layers. Probes on the wrong side have none. */
+/* Adds touches of probes and their near layers. Probes on the wrong side, and lips of a seam, have none. */
 static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
 {
     kiriWorld* world = search->world;
@@ -1162,7 +1165,8 @@ static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
         touch.gap = side * near->height;
         touch.distance = near->kept;
         bool isTangled = (sheet->probes.marks.data[near->vertex] & KIRI_FOLD_TANGLED) != 0;
-        if (!isTangled && touch.gap - Approach(world, &touch, dt) < (1.0 + MARGIN) * touch.distance) {
+        bool isSewn = AreSewn(&touch.upper, &touch.lower, SEWN_REACH * sheet->settings.foldThickness);
+        if (!isTangled && !isSewn && touch.gap - Approach(world, &touch, dt) < (1.0 + MARGIN) * touch.distance) {
             RankTouch(&touch, touch.distance);
             ok = kiriArray_Push(&world->memory, &world->pairs.touches, touch);
         }

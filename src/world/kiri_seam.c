@@ -245,6 +245,8 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
         double part = (double)k / parts;
         bool isEnd = !isClosed && (k == 0 || k == parts);
         memset(stitch, 0, sizeof(*stitch));
+        stitch->number = k;
+        stitch->next = k + 1 < count ? k + 1 : isClosed ? 0 : KIRI_NONE;
         stitch->share = isEnd ? 0.5 : 1.0;
         stitch->length = stitch->share / parts * 0.5 * (lengths[0] + lengths[1]);
         for (int end = 0; end < 2; ++end) {
@@ -320,8 +322,8 @@ void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
     FreeSeam(world, seam);
 }
 
-/* Removes the stitches whose sheets are gone or whose force for their length is above a limit, and wakes what they held.
-   Returns their number. */
+/* Removes a stitch if one of its sheets is gone, or if its force for its length is above the limit. Wakes the pieces of
+   removed stitches. Returns their number. */
 static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, double limit)
 {
     int32_t kept = 0, count = seam->stitches.count;
@@ -359,11 +361,12 @@ bool kiriSeams_ListLines(kiriWorld* world)
         sheet->sewn.count = 0;
     }
     KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
-        for (int32_t k = 2; ok && k < 2 * seam->stitches.count; ++k) {
-            const kiriStitchData* stitch = &seam->stitches.data[k / 2];
-            kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, k % 2);
-            kiriSewnLine line = { seam->id, stitch[-1].at[k % 2], stitch->at[k % 2] };
-            ok = kiriStitch_Sheet(world, stitch - 1, k % 2) != sheet ||
+        for (int32_t k = 0; ok && k < 2 * seam->stitches.count; ++k) {
+            const kiriStitchData *all = seam->stitches.data, *from = &all[k / 2];
+            const kiriStitchData* to = k / 2 + 1 < seam->stitches.count ? from + 1 : all;
+            kiriSheetData* sheet = kiriStitch_Sheet(world, from, k % 2);
+            kiriSewnLine line = { seam->id, from->at[k % 2], to->at[k % 2] };
+            ok = from->next != to->number || kiriStitch_Sheet(world, to, k % 2) != sheet ||
                  kiriArray_Push(sheet->memory, &sheet->sewn, line);
         }
     }
@@ -482,8 +485,10 @@ void kiriSeams_End(kiriWorld* world, double dt)
         kiriSeamData* seam = world->seams.data[i];
         KIRI_ASSERT(seam->stitches.count > 0 && seam->rows.count <= seam->stitches.count);
         KIRI_EACH_INDEX(k, seam->rows) {
-            if (seam->rows.data[k].body != KIRI_NONE) {
-                seam->stitches.data[k].force = kiriVec3_Scale(1.0 / dt, seam->rows.data[k].impulse);
+            const kiriStitchRow* row = &seam->rows.data[k];
+            const kiriSheetData* moved = kiriStitch_Sheet(world, &seam->stitches.data[k], row->solvers[0] == NULL);
+            if (row->body != KIRI_NONE && world->moves.of.data[moved->probes.sheet].progress == KIRI_DONE) {
+                seam->stitches.data[k].force = kiriVec3_Scale(1.0 / dt, row->impulse);
             }
         }
         seam->rows.count = 0;

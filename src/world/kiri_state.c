@@ -52,6 +52,7 @@ KIRI_TABLE(BladeDataTable, kiriBladeData, {
 KIRI_TABLE(StitchTable, kiriStitchData, {
     KIRI_RUN(4, at),
     KIRI_REALS(inward, force),
+    KIRI_RUN(4, number, next),
     KIRI_UNHASHED,
     KIRI_RUN(4, frames),
 })

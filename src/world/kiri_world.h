@@ -108,6 +108,7 @@ typedef struct kiriStitchData {
     double length;          /* m of the seam */
     double share;           /* of the stiffness of a whole stitch; those at ends stand for half the length */
     kiriVec3 force;         /* N, on the first point: mean over the last tick that moved it */
+    int32_t number, next;   /* along the line as it was sewn; `next` may be gone. KIRI_NONE: the line ends here */
 } kiriStitchData;
 
 typedef struct kiriSeamData {

@@ -884,8 +884,8 @@ namespace Kiri
         public float Stiffness;
         /// <summary>rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it</summary>
         public float RestAngle;
-        /// <summary>N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a
-        /// yieldStress</summary>
+        /// <summary>N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no
+        /// limit. Only in a material with a yieldStress</summary>
         public float YieldMoment;
     }
 

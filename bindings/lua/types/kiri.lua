@@ -238,7 +238,7 @@ kiri.DRAW_ALL = 2047
 ---@field to? number[]|ffi.cdata* # m
 ---@field stiffness? number # N m/rad per metre of the line, 0 or more; 0: a free hinge
 ---@field restAngle? number # rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
----@field yieldMoment? number # N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
+---@field yieldMoment? number # N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
 
 --- A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
 --- joined: 0 where all of it is cut, or inside one region.

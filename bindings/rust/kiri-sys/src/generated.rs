@@ -578,8 +578,8 @@ pub struct kiriFold {
     pub stiffness: f32,
     /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
     pub restAngle: f32,
-    /// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
-    /// with a yieldStress
+    /// N m per metre: most that it carries, and more with the material's hardening; an angle beyond
+    /// stays. 0: no limit. Only in a material with a yieldStress
     pub yieldMoment: f32,
 }
 

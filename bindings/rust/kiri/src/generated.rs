@@ -1153,8 +1153,8 @@ pub struct Fold {
     pub stiffness: f32,
     /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
     pub rest_angle: f32,
-    /// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
-    /// with a `yield_stress`
+    /// N m per metre: most that it carries, and more with the material's hardening; an angle beyond
+    /// stays. 0: no limit. Only in a material with a `yield_stress`
     pub yield_moment: f32,
 }
 
