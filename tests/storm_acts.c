@@ -148,6 +148,20 @@ static void DescribeSheet(Storm* storm, kiriSheetDef* def)
     def->paper.integrationOrder = 1 + (int32_t)Storm_Random(storm, 2);
 }
 
+/* A draw for each statement: in one list of values compilers choose the order. */
+static kiriFold RandomFold(Storm* storm)
+{
+    kiriFold fold = { 0 };
+    for (int axis = 0; axis < 2; axis++) {
+        fold.from[axis] = Storm_Between(storm, -0.1f, 1.1f);
+        fold.to[axis] = Storm_Between(storm, -0.1f, 1.1f);
+    }
+    fold.stiffness = Storm_Between(storm, 0.0f, 1e-3f);
+    fold.restAngle = Storm_Between(storm, -3.0f, 3.0f);
+    fold.yieldMoment = Storm_Between(storm, 0.0f, 1e-4f);
+    return fold;
+}
+
 void Storm_AddSheet(Storm* storm)
 {
     enum { CORNERS = STORM_SQUARES + 1 };
@@ -169,11 +183,7 @@ void Storm_AddSheet(Storm* storm)
     kiriSheet sheet = 0;
     kiriFold folds[4];
     for (int i = 0; storm->type->folds && i < 4; i++) {
-        folds[i] = (kiriFold){ { Storm_Between(storm, -0.1f, 1.1f), Storm_Between(storm, -0.1f, 1.1f) },
-                               { Storm_Between(storm, -0.1f, 1.1f), Storm_Between(storm, -0.1f, 1.1f) },
-                               Storm_Between(storm, 0.0f, 1e-3f),
-                               Storm_Between(storm, -3.0f, 3.0f),
-                               Storm_Between(storm, 0.0f, 1e-4f) };
+        folds[i] = RandomFold(storm);
     }
     Storm_Note(storm, storm->type->folds ? kiriCreateFoldedSheet(storm->world, &def, folds, 4, &sheet)
                                          : kiriCreateSheet(storm->world, &def, &sheet));
@@ -206,11 +216,11 @@ static void ChangeSettings(Storm* storm)
     settings.material.detail = settings.iterations % 3;
     Storm_Note(storm, kiriSheet_SetSettings(storm->world, sheet, &settings));
     if (storm->type->folds) {
-        kiriFold fold = { { 0.0f, Storm_Between(storm, 0.0f, 1.0f) }, { 1.0f, Storm_Between(storm, 0.0f, 1.0f) }, 1e-4f, 0.5f, 0.0f };
+        kiriFold fold = RandomFold(storm);
         int32_t index;
         Storm_Note(storm, kiriSheet_AddFold(storm->world, sheet, &fold, &index));
-        Storm_Note(storm, kiriSheet_SetFold(storm->world, sheet, (int32_t)Storm_Random(storm, 4), 1e-4f,
-                                            Storm_Between(storm, -1.0f, 1.0f)));
+        float angle = Storm_Between(storm, -1.0f, 1.0f);
+        Storm_Note(storm, kiriSheet_SetFold(storm->world, sheet, (int32_t)Storm_Random(storm, 4), 1e-4f, angle));
     }
 }
 
