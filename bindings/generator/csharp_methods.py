@@ -336,7 +336,7 @@ class Call:
             returned, gives = "bool", "hitValue.Triangle >= 0"
         elif len(outs) == 1:
             returned, gives = outs[0][0], outs[0][1]
-        elif naming.pends(f) and not outs:
+        elif f.get("pends") and not outs:
             returned, gives = "Status", "result == 0 ? Status.Done : Status.Pending"
         takes = list(self._takes)
         if missing or len(outs) > 1:

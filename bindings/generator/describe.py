@@ -55,6 +55,9 @@ PARAMETERS = {
 RETURNS = {"kiriGetResultName": "forever", "kiriGetResultText": "forever", "kiriGetStageName": "forever",
            "kiriWorld_GetLastError": "until the next call that changes the world"}
 
+# Tags in comments: an id that may be 0, a number that is 0 or 1, a result.
+NONE, FLAG, PENDS = r"\b0: none\b", r"1: ", r"\bKIRI_PENDING: "
+
 # Bytes and alignment.
 NUMBERS = {"int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8, "uint16_t": 2}
 POINTERS = {"64": 8, "wasm32": 4}
@@ -171,8 +174,10 @@ class Describer:
             described.update({"length": length, "width": width} if length else {})
         if form in ("pointer", "callback"):
             described["nullable"] = self._is_nullable(name)
-        if re.match(r"(?:\w+, see below\. )?1: ", field["doc"]):
+        if re.match(FLAG, field["doc"]):
             described["flag"] = True
+        if form == "id" and re.search(NONE, field["doc"]):
+            described["none"] = True
         if form == "number" and self._enum_of(field["doc"]):
             described["enum"] = self._enum_of(field["doc"])
         return described
@@ -203,6 +208,13 @@ class Describer:
             described["changes"] = not world["const"]
         described["class"], described["method"] = self._method(name, parameters)
         described["parameters"] = [self._parameter(name, parameters, i) for i in range(len(parameters))]
+        # Bytes that are pending are no bytes: callers get an error.
+        if re.search(PENDS, function["doc"]) and all(p["form"] != "bytes" or p["direction"] == "in" for p in described["parameters"]):
+            described["pends"] = True
+        for p in described["parameters"]:
+            if p["form"] == "id" and p["direction"] == "out" and (
+                    described.get("pends") or re.search(rf"\*{p['name']} {NONE}", function["doc"])):
+                p["none"] = True
         return described
 
     def _method(self, name, parameters):

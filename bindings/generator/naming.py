@@ -48,22 +48,6 @@ def wrapped(doc, start, width=100):
     return [(start + line).rstrip() for line in lines]
 
 
-def pends(function):
-    """Whether KIRI_PENDING is one of its results that callers get: a save that is pending has no bytes."""
-    return "KIRI_PENDING" in function["doc"] and function["name"] != "kiriWorld_Save"
-
-
-def or_zero(doc):
-    """Whether an id may be 0, none."""
-    return bool(re.search(r"\bor 0\b", doc))
-
-
-def may_give_none(function, parameter):
-    """Whether an id that it gives may be 0 where it did not fail."""
-    doc = re.sub(r"On failure \*\w+ is 0\.", "", function["doc"])
-    return bool(re.search(rf"\*{parameter['name']} is 0\b", doc))
-
-
 def comment(text, prefix, width=118):
     """A text as lines that begin with a prefix."""
     return "".join(f"{prefix}{line}\n" for paragraph in text.split("\n") if paragraph

@@ -152,7 +152,7 @@ class Safe:
         """Laid out as in C, so that views need no copies."""
         return all(field["form"] in ("number", "id", "struct") and not field.get("flag") and not field.get("enum")
                    and field["name"] != "cookie"
-                   and not (field["form"] == "id" and not naming.or_zero(field["doc"]))
+                   and not (field["form"] == "id" and not field.get("none"))
                    and not (field["form"] == "struct" and not self._is_plain(self._structs[field["type"]]))
                    for field in struct["fields"])
 
@@ -177,7 +177,7 @@ class Safe:
             return naming.bare(field["type"]) + ("<'a>" if self._lends(inner) else "")
         if field["form"] == "id":
             name = naming.bare(field["type"])
-            return f"Option<{name}>" if naming.or_zero(field["doc"]) else name
+            return f"Option<{name}>" if field.get("none") else name
         if field.get("enum"):
             return naming.bare(field["enum"])
         if field.get("flag"):
@@ -261,7 +261,7 @@ class Safe:
         if field["form"] == "struct":
             return f"{naming.bare(field['type'])}::from_raw(&{raw})"
         if field["form"] == "id":
-            return f"{naming.bare(field['type'])}::{'from_raw' if naming.or_zero(field['doc']) else 'known'}({raw})"
+            return f"{naming.bare(field['type'])}::{'from_raw' if field.get('none') else 'known'}({raw})"
         if field.get("enum"):
             return f"{naming.bare(field['enum'])}::known({raw})"
         return f"{raw} != 0" if field.get("flag") else raw
@@ -271,7 +271,7 @@ class Safe:
         if field["form"] == "struct":
             return f"{name}.raw()"
         if field["form"] == "id":
-            return f"{name}.map_or(0, |id| id.raw())" if naming.or_zero(field["doc"]) else f"{name}.raw()"
+            return f"{name}.map_or(0, |id| id.raw())" if field.get("none") else f"{name}.raw()"
         if field.get("enum"):
             return f"{name} as i32"
         return f"i32::from({name})" if field.get("flag") else name
@@ -303,7 +303,7 @@ class Safe:
             for name in used:
                 field = fields[name]
                 kind = naming.bare(field["type"]) if field["form"] == "id" else self._field_type(struct, field)
-                lines += [*self._doc("" if field["doc"] == "or 0" else field["doc"], "        /// ", name), f"        {snake_field(name)}: {kind},"]
+                lines += [*self._doc("" if field["doc"] == "0: none" else field["doc"], "        /// ", name), f"        {snake_field(name)}: {kind},"]
             lines.append("    },")
             taken = ", ".join(f"{snake_field(name)}: {self._of_event(fields[name])}" for name in used)
             arms.append(f"            EventType::{variant} => Self::{variant} {{ {taken} }},")
@@ -450,7 +450,7 @@ class Call:
         self._outs.append(("bool", f"{name} != 0") if p.get("flag") else (kind, name))
 
     def _out_id(self, p, name):
-        kind, none = naming.bare(p["type"]), naming.may_give_none(self._f, p)
+        kind, none = naming.bare(p["type"]), p.get("none")
         self._before.append(f"let mut {name} = 0;")
         self._arguments.append(f"&mut {name}")
         self._outs.append((f"Option<{kind}>", f"{kind}::from_raw({name})") if none else (kind, f"{kind}::known({name})"))
@@ -522,7 +522,7 @@ class Call:
                      value.replace("::from_raw(", "::known(") if i + 1 < len(outs) else value)
                     for i, (kind, value) in enumerate(outs)]
         kinds, values = [kind for kind, _ in outs], [value for _, value in outs]
-        if naming.pends(self._f) and not outs:
+        if self._f.get("pends") and not outs:
             return "Status", "Status::of(result)"
         kind, value = ("()", "()") if not kinds else (kinds[0], values[0]) if len(kinds) == 1 else \
             (f"({', '.join(kinds)})", f"({', '.join(values)})")

@@ -207,7 +207,7 @@ class Method:
             return self._before + [*self._called(call), *self._after, f"return {', '.join(self._values)}"], self._kinds[0]
         if function["returns"] != "kiriResult":
             return [f"return {NUMBERS[function['returns']]}({call})"], NUMBERS[function["returns"]]
-        pends = function["class"] and function.get("changes") and not self._kinds
+        pends = function.get("pends") and not self._kinds
         zero = [f"made{i}" for i in range(len(self._kinds))]
         lines = [f"var {name} {kind}" for name, kind in zip(zero, self._kinds)]
         failed = ", ".join([*zero, *(["false"] if pends else []), "err"])
@@ -351,6 +351,27 @@ class Method:
             self._values.append(f"things[{naming.bare(kind)}]({self._world}, {name})")
 
 
+def formatted(text):
+    """As gofmt has it: columns of fields, constants and keyed values are aligned, labels stand out."""
+    lines, run, inside = [], [], False
+
+    def flush():
+        width = max((len(first) for first, _ in run), default=0)
+        lines.extend(f"{first:<{width}} {rest}" for first, rest in run)
+        run.clear()
+
+    for line in text.split("\n"):
+        entry = re.fullmatch(r"(\t+\"?[-\w]+\"?:) (.+)", line) or (inside and re.fullmatch(r"(\t+\w+) (.+)", line))
+        if entry:
+            run.append(entry.groups())
+            continue
+        flush()
+        inside = line.endswith(("struct {", "const (")) or inside and not line.lstrip().startswith(("}", ")"))
+        lines.append(line[1:] if re.fullmatch(r"\t+\w+:", line) else line)
+    flush()
+    return "\n".join(lines)
+
+
 def files(description):
     go = Go(description)
     text = "// Code generated from kiri.h by make bindings. DO NOT EDIT.\n\npackage kiri\n\n// #include <kiri/kiri.h>\nimport \"C\"\n\n"
@@ -360,4 +381,4 @@ def files(description):
     names = "".join(f"\t\"{function['name']}\": \"{function['class'] or ''}.{Method.name(function)}\",\n"
                     for function in description["functions"])
     text += f"\n// For the test that none is missing.\nvar functions = map[string]string{{\n{names}}}\n"
-    return {"bindings/go/kiri.go": text}
+    return {"bindings/go/kiri.go": formatted(text)}

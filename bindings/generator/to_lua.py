@@ -330,7 +330,7 @@ class Method:
     def _out_id(self, parameter):
         kind = parameter["type"][4:]
         self._passed.append(f"out.{kind}")
-        self._give(f"handle(world, out.{kind}[0], \"{kind}\")", f"kiri.{kind}{'?' if naming.may_give_none(self._function, parameter) else ''}")
+        self._give(f"handle(world, out.{kind}[0], \"{kind}\")", f"kiri.{kind}{'?' if parameter.get('none') else ''}")
 
     def _out_struct(self, parameter):
         name, kind = parameter["name"], parameter["type"]

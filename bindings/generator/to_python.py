@@ -240,7 +240,7 @@ class Method:
         if out[0]["form"] == "struct":
             return "Record"
         if out[0]["form"] == "id":
-            return f"Optional[{kind}]" if naming.may_give_none(function, out[0]) else kind
+            return f"Optional[{kind}]" if out[0].get("none") else kind
         return "bool" if out[0].get("flag") else kind
 
     def _is_copied(self):

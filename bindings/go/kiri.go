@@ -44,17 +44,17 @@ const (
 )
 
 var namesResultCode = map[ResultCode]string{
-	0: "KIRI_OK",
-	1: "KIRI_PENDING",
-	-1: "KIRI_ERROR_ARGUMENT",
-	-2: "KIRI_ERROR_DEF",
-	-3: "KIRI_ERROR_ID",
-	-4: "KIRI_ERROR_MESH",
-	-5: "KIRI_ERROR_STATE",
-	-6: "KIRI_ERROR_MEMORY",
-	-7: "KIRI_DIVERGED",
-	-8: "KIRI_ERROR_LIMIT",
-	-9: "KIRI_ERROR_BUILD",
+	0:   "KIRI_OK",
+	1:   "KIRI_PENDING",
+	-1:  "KIRI_ERROR_ARGUMENT",
+	-2:  "KIRI_ERROR_DEF",
+	-3:  "KIRI_ERROR_ID",
+	-4:  "KIRI_ERROR_MESH",
+	-5:  "KIRI_ERROR_STATE",
+	-6:  "KIRI_ERROR_MEMORY",
+	-7:  "KIRI_DIVERGED",
+	-8:  "KIRI_ERROR_LIMIT",
+	-9:  "KIRI_ERROR_BUILD",
 	-10: "KIRI_ERROR_DATA",
 	-11: "KIRI_ERROR_REPLAY",
 }
@@ -141,7 +141,7 @@ const (
 	// the motion of the frames
 	StageSolve Stage = 7
 	// positions and normals of the mesh
-	StageSkin Stage = 8
+	StageSkin  Stage = 8
 	StageCount Stage = 9
 )
 
@@ -173,7 +173,7 @@ const (
 	// aluminium, 16 um
 	MaterialFoil MaterialPreset = 3
 	// paperboard, 0.4 mm
-	MaterialCard MaterialPreset = 4
+	MaterialCard  MaterialPreset = 4
 	MaterialCount MaterialPreset = 5
 )
 
@@ -191,10 +191,10 @@ func (v MaterialPreset) String() string { return namesMaterialPreset[v] }
 type QualityPreset int32
 
 const (
-	QualityFast QualityPreset = 0
+	QualityFast     QualityPreset = 0
 	QualityBalanced QualityPreset = 1
 	QualityAccurate QualityPreset = 2
-	QualityCount QualityPreset = 3
+	QualityCount    QualityPreset = 3
 )
 
 var namesQualityPreset = map[QualityPreset]string{
@@ -338,20 +338,20 @@ const (
 	DrawObstacles DrawFlag = 512
 	// a point for each collision point
 	DrawPoints DrawFlag = 1024
-	DrawAll DrawFlag = 2047
+	DrawAll    DrawFlag = 2047
 )
 
 var namesDrawFlag = map[DrawFlag]string{
-	1: "KIRI_DRAW_TRIANGLES",
-	2: "KIRI_DRAW_EDGES",
-	4: "KIRI_DRAW_BORDERS",
-	8: "KIRI_DRAW_FRAMES",
-	16: "KIRI_DRAW_LINKS",
-	32: "KIRI_DRAW_PINS",
-	64: "KIRI_DRAW_CONTACTS",
-	128: "KIRI_DRAW_BLADES",
-	256: "KIRI_DRAW_BOXES",
-	512: "KIRI_DRAW_OBSTACLES",
+	1:    "KIRI_DRAW_TRIANGLES",
+	2:    "KIRI_DRAW_EDGES",
+	4:    "KIRI_DRAW_BORDERS",
+	8:    "KIRI_DRAW_FRAMES",
+	16:   "KIRI_DRAW_LINKS",
+	32:   "KIRI_DRAW_PINS",
+	64:   "KIRI_DRAW_CONTACTS",
+	128:  "KIRI_DRAW_BLADES",
+	256:  "KIRI_DRAW_BOXES",
+	512:  "KIRI_DRAW_OBSTACLES",
 	1024: "KIRI_DRAW_POINTS",
 	2047: "KIRI_DRAW_ALL",
 }
@@ -397,13 +397,13 @@ type Budget struct {
 // An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1.
 type Event struct {
 	// KIRI_EVENT_...
-	Type EventType
+	Type  EventType
 	Sheet SheetID
-	// or 0
+	// 0: none
 	Cut CutID
-	// or 0
+	// 0: none
 	Frame FrameID
-	// or 0
+	// 0: none
 	Pin PinID
 	// 1: the piece is a crumb, see kiriSheetDef
 	Crumb int32
@@ -413,7 +413,7 @@ type Event struct {
 	Stage Stage
 	// points and ends of cuts that are pending or in work; or 0
 	Waiting int32
-	// or 0
+	// 0: none
 	Seam SeamID
 	// that the seam has left, or 0
 	Stitches int32
@@ -549,7 +549,7 @@ type SheetDef struct {
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
 	// 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
-	Accuracy float32
+	Accuracy    float32
 	FramePoints [][2]float32
 	// re-sampling stops here; default 256
 	MaxFrames int32
@@ -600,7 +600,7 @@ type SheetDef struct {
 
 // Sheet settings that can change after creation. Fields mean the same as in kiriSheetDef.
 type SheetSettings struct {
-	cookie uint32
+	cookie   uint32
 	Material Material
 	// re-sampling stops here; default 256
 	MaxFrames int32
@@ -654,8 +654,8 @@ type Fold struct {
 // A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
 // joined: 0 where all of it is cut, or inside one region.
 type FoldState struct {
-	Fold Fold
-	Angle float64
+	Fold   Fold
+	Angle  float64
 	Length float64
 }
 
@@ -675,9 +675,9 @@ type Mesh struct {
 	SourceTriangles View[int32]
 	// 3 a vertex: and its barycentric coordinates there
 	SourceWeights View[[3]float32]
-	VertexCount int32
+	VertexCount   int32
 	TriangleCount int32
-	Revision uint32
+	Revision      uint32
 }
 
 // `count` items from `first` on.
@@ -713,8 +713,8 @@ type Solid struct {
 	// 3 a triangle, counter-clockwise from outside
 	Indices View[[3]int32]
 	// 1 a vertex: its vertex in kiriMesh
-	Sources View[int32]
-	VertexCount int32
+	Sources       View[int32]
+	VertexCount   int32
 	TriangleCount int32
 	// rims begin at this triangle
 	RimTriangle int32
@@ -722,23 +722,23 @@ type Solid struct {
 
 // Numbers of items in a sheet.
 type Counts struct {
-	Vertices int32
-	Triangles int32
-	Cells int32
-	Frames int32
-	Links int32
-	Pieces int32
+	Vertices        int32
+	Triangles       int32
+	Cells           int32
+	Frames          int32
+	Links           int32
+	Pieces          int32
 	CollisionPoints int32
 }
 
 // m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s.
 type Totals struct {
-	Area float64
-	Mass float64
-	KineticEnergy float64
-	ElasticEnergy float64
-	Center [3]float64
-	Momentum [3]float64
+	Area            float64
+	Mass            float64
+	KineticEnergy   float64
+	ElasticEnergy   float64
+	Center          [3]float64
+	Momentum        [3]float64
 	AngularMomentum [3]float64
 }
 
@@ -809,9 +809,9 @@ type PieceMesh struct {
 	// 3 a triangle, as in kiriMesh: draw them
 	Indices View[[3]int32]
 	// see kiriSheet_GetCollisionPoints
-	CollisionPoints View[int32]
-	VertexCount int32
-	TriangleCount int32
+	CollisionPoints     View[int32]
+	VertexCount         int32
+	TriangleCount       int32
 	CollisionPointCount int32
 }
 
@@ -860,15 +860,15 @@ type PinDef struct {
 	Stiffness float32
 	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32
-	// or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If
-	// it is destroyed the target stays
+	// 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass.
+	// If it is destroyed the target stays
 	Obstacle ObstacleID
 }
 
 // Type and target of a pin.
 type PinState struct {
 	// KIRI_PIN_...
-	Type PinType
+	Type  PinType
 	Sheet SheetID
 	// m, rest plane: the ends of the line, or the point twice
 	From [2]float32
@@ -880,7 +880,7 @@ type PinState struct {
 	Rotation [9]float32
 	// N, or 0
 	BreakForce float32
-	// that the target moves with, or 0
+	// that the target moves with; 0: none
 	Obstacle ObstacleID
 }
 
@@ -1007,9 +1007,9 @@ type ObstacleDef struct {
 
 // Pose, motion, and reaction of an obstacle.
 type ObstacleState struct {
-	Position [3]float32
-	Rotation [9]float32
-	Velocity [3]float32
+	Position        [3]float32
+	Rotation        [9]float32
+	Velocity        [3]float32
 	AngularVelocity [3]float32
 	// N s, N m s about its centre of mass: of sheets and pins in the last tick
 	Impulse [3]float64
@@ -1143,39 +1143,39 @@ func (def *SheetDef) fromC(c *C.kiriSheetDef) {
 
 func viewMesh(world *World, c *C.kiriMesh) Mesh {
 	return Mesh{
-		Positions: viewOf[[3]float32](world, unsafe.Pointer(c.positions), int(c.vertexCount)),
-		Normals: viewOf[[3]float32](world, unsafe.Pointer(c.normals), int(c.vertexCount)),
-		RestPositions: viewOf[[2]float32](world, unsafe.Pointer(c.restPositions), int(c.vertexCount)),
-		Indices: viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
+		Positions:       viewOf[[3]float32](world, unsafe.Pointer(c.positions), int(c.vertexCount)),
+		Normals:         viewOf[[3]float32](world, unsafe.Pointer(c.normals), int(c.vertexCount)),
+		RestPositions:   viewOf[[2]float32](world, unsafe.Pointer(c.restPositions), int(c.vertexCount)),
+		Indices:         viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
 		SourceTriangles: viewOf[int32](world, unsafe.Pointer(c.sourceTriangles), int(c.vertexCount)),
-		SourceWeights: viewOf[[3]float32](world, unsafe.Pointer(c.sourceWeights), int(c.vertexCount)),
-		VertexCount: int32(c.vertexCount),
-		TriangleCount: int32(c.triangleCount),
-		Revision: uint32(c.revision),
+		SourceWeights:   viewOf[[3]float32](world, unsafe.Pointer(c.sourceWeights), int(c.vertexCount)),
+		VertexCount:     int32(c.vertexCount),
+		TriangleCount:   int32(c.triangleCount),
+		Revision:        uint32(c.revision),
 	}
 }
 
 func viewSolid(world *World, c *C.kiriSolid) Solid {
 	return Solid{
-		Positions: viewOf[[3]float32](world, unsafe.Pointer(c.positions), int(c.vertexCount)),
-		Normals: viewOf[[3]float32](world, unsafe.Pointer(c.normals), int(c.vertexCount)),
+		Positions:     viewOf[[3]float32](world, unsafe.Pointer(c.positions), int(c.vertexCount)),
+		Normals:       viewOf[[3]float32](world, unsafe.Pointer(c.normals), int(c.vertexCount)),
 		RestPositions: viewOf[[2]float32](world, unsafe.Pointer(c.restPositions), int(c.vertexCount)),
-		Indices: viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
-		Sources: viewOf[int32](world, unsafe.Pointer(c.sources), int(c.vertexCount)),
-		VertexCount: int32(c.vertexCount),
+		Indices:       viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
+		Sources:       viewOf[int32](world, unsafe.Pointer(c.sources), int(c.vertexCount)),
+		VertexCount:   int32(c.vertexCount),
 		TriangleCount: int32(c.triangleCount),
-		RimTriangle: int32(c.rimTriangle),
+		RimTriangle:   int32(c.rimTriangle),
 	}
 }
 
 func viewPieceMesh(world *World, c *C.kiriPieceMesh) PieceMesh {
 	return PieceMesh{
-		Vertices: viewOf[int32](world, unsafe.Pointer(c.vertices), int(c.vertexCount)),
-		Triangles: viewOf[int32](world, unsafe.Pointer(c.triangles), int(c.triangleCount)),
-		Indices: viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
-		CollisionPoints: viewOf[int32](world, unsafe.Pointer(c.collisionPoints), int(c.collisionPointCount)),
-		VertexCount: int32(c.vertexCount),
-		TriangleCount: int32(c.triangleCount),
+		Vertices:            viewOf[int32](world, unsafe.Pointer(c.vertices), int(c.vertexCount)),
+		Triangles:           viewOf[int32](world, unsafe.Pointer(c.triangles), int(c.triangleCount)),
+		Indices:             viewOf[[3]int32](world, unsafe.Pointer(c.indices), int(c.triangleCount)),
+		CollisionPoints:     viewOf[int32](world, unsafe.Pointer(c.collisionPoints), int(c.collisionPointCount)),
+		VertexCount:         int32(c.vertexCount),
+		TriangleCount:       int32(c.triangleCount),
 		CollisionPointCount: int32(c.collisionPointCount),
 	}
 }
@@ -1303,9 +1303,9 @@ var poolWorldShiftOrigin pool[struct {
 // Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
 // floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
 // keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
-func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
+func (w *World) ShiftOrigin(origin [3]float32) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolWorldShiftOrigin.take()
 	block.origin = origin
@@ -1313,9 +1313,9 @@ func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
 	poolWorldShiftOrigin.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_ShiftOrigin", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolWorldSetGravity pool[struct {
@@ -1323,9 +1323,9 @@ var poolWorldSetGravity pool[struct {
 }]
 
 // Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
-func (w *World) SetGravity(gravity [3]float32) (bool, error) {
+func (w *World) SetGravity(gravity [3]float32) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolWorldSetGravity.take()
 	block.gravity = gravity
@@ -1333,22 +1333,22 @@ func (w *World) SetGravity(gravity [3]float32) (bool, error) {
 	poolWorldSetGravity.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
-func (w *World) SetBudget(budget *Budget) (bool, error) {
+func (w *World) SetBudget(budget *Budget) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriWorld_SetBudget(w.c, (*C.kiriBudget)(unsafe.Pointer(budget)))
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_SetBudget", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolWorldGetStateHash pool[struct {
@@ -1383,7 +1383,7 @@ func (w *World) Sheets() ([]Sheet, error) {
 		return made0, err
 	}
 	room := C.int32_t(64)
-	again:
+again:
 	sheets := make([]C.kiriSheet, room)
 	block := poolWorldGetSheets.take()
 	result := C.kiriWorld_GetSheets(w.c, unsafe.SliceData(sheets), room, &block.count)
@@ -1401,66 +1401,66 @@ func (w *World) Sheets() ([]Sheet, error) {
 
 // Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A replay
 // stops there. The world does not change; without a recording nothing happens.
-func (w *World) Note(bytes []byte) (bool, error) {
+func (w *World) Note(bytes []byte) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriWorld_Note(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int32_t(len(bytes)))
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_Note", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
 // events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
 // kiriWorld_Tick.
-func (w *World) FinishCuts() (bool, error) {
+func (w *World) FinishCuts() error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriWorld_FinishCuts(w.c)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_FinishCuts", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give a
 // strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Arrays
 // that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes
 // are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
-func (w *World) Load(bytes []byte) (bool, error) {
+func (w *World) Load(bytes []byte) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriWorld_Load(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_Load", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
 // has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY.
-func (w *World) Restore(bytes []byte) (bool, error) {
+func (w *World) Restore(bytes []byte) error {
 	if err := w.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriWorld_Restore(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_Restore", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolWorldGetEvents pool[struct {
 	events *C.kiriEvent
-	count C.int32_t
+	count  C.int32_t
 }]
 
 // Gets the events: *events points to *count of them.
@@ -1575,16 +1575,16 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 
 // Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
 // do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
-func (s Sheet) Destroy() (bool, error) {
+func (s Sheet) Destroy() error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriDestroySheet(s.World.c, C.kiriSheet(s.ID))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriDestroySheet", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolWorldCreateRectangle pool[struct {
@@ -1637,16 +1637,16 @@ func (s Sheet) Settings() (SheetSettings, error) {
 // Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
 // kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
 // momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
-func (s Sheet) SetSettings(settings *SheetSettings) (bool, error) {
+func (s Sheet) SetSettings(settings *SheetSettings) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_SetSettings(s.World.c, C.kiriSheet(s.ID), (*C.kiriSheetSettings)(unsafe.Pointer(settings)))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetSettings", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolWorldCreateFoldedSheet pool[struct {
@@ -1717,16 +1717,16 @@ func (s Sheet) Fold(index int32) (FoldState, error) {
 
 // Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
 // A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
-func (s Sheet) SetFold(index int32, stiffness float32, restAngle float32) (bool, error) {
+func (s Sheet) SetFold(index int32, stiffness float32, restAngle float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_SetFold(s.World.c, C.kiriSheet(s.ID), C.int32_t(index), C.float(stiffness), C.float(restAngle))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetFold", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetGetMesh pool[struct {
@@ -1791,7 +1791,7 @@ func (s Sheet) Solid(thickness float32) (Solid, error) {
 
 var poolSheetGetCollisionPoints pool[struct {
 	positions *C.float
-	count C.int32_t
+	count     C.int32_t
 }]
 
 // Gets the collision points: 3 floats of position (m, world) a point.
@@ -1893,20 +1893,20 @@ func (s Sheet) IsAwake() (bool, error) {
 }
 
 // Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
-func (s Sheet) Wake() (bool, error) {
+func (s Sheet) Wake() error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_Wake(s.World.c, C.kiriSheet(s.ID))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_Wake", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetTransform pool[struct {
-	rotation [9]float32
+	rotation    [9]float32
 	translation [3]float32
 }]
 
@@ -1914,9 +1914,9 @@ var poolSheetTransform pool[struct {
 // columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
 // pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
 // set targets or move obstacles (sheets). Pending loads and contacts stay.
-func (s Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
+func (s Sheet) Transform(rotation [9]float32, translation [3]float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolSheetTransform.take()
 	block.rotation = rotation
@@ -1925,22 +1925,22 @@ func (s Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, err
 	poolSheetTransform.give(block)
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_Transform", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetSetVelocity pool[struct {
-	velocity [3]float32
+	velocity        [3]float32
 	angularVelocity [3]float32
 }]
 
 // Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
 // of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
 // held.
-func (s Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+func (s Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolSheetSetVelocity.take()
 	block.velocity = velocity
@@ -1949,22 +1949,22 @@ func (s Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (boo
 	poolSheetSetVelocity.give(block)
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetVelocity", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolFrameSetPieceVelocity pool[struct {
-	velocity [3]float32
+	velocity        [3]float32
 	angularVelocity [3]float32
 }]
 
 // Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
 // of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
 // held.
-func (f Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+func (f Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32) error {
 	if err := f.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolFrameSetPieceVelocity.take()
 	block.velocity = velocity
@@ -1973,24 +1973,24 @@ func (f Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32)
 	poolFrameSetPieceVelocity.give(block)
 	runtime.KeepAlive(f.World)
 	if err := failure(f.World, "kiriFrame_SetPieceVelocity", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (s Sheet) SetUserData(data uint64) (bool, error) {
+func (s Sheet) SetUserData(data uint64) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_SetUserData(s.World.c, C.kiriSheet(s.ID), C.uint64_t(data))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetUserData", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetGetUserData pool[struct {
@@ -2018,16 +2018,16 @@ func (s Sheet) UserData() (uint64, error) {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (p Pin) SetUserData(data uint64) (bool, error) {
+func (p Pin) SetUserData(data uint64) error {
 	if err := p.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriPin_SetUserData(p.World.c, C.kiriPin(p.ID), C.uint64_t(data))
 	runtime.KeepAlive(p.World)
 	if err := failure(p.World, "kiriPin_SetUserData", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolPinGetUserData pool[struct {
@@ -2055,16 +2055,16 @@ func (p Pin) UserData() (uint64, error) {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (f Frame) SetPieceUserData(data uint64) (bool, error) {
+func (f Frame) SetPieceUserData(data uint64) error {
 	if err := f.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriFrame_SetPieceUserData(f.World.c, C.kiriFrame(f.ID), C.uint64_t(data))
 	runtime.KeepAlive(f.World)
 	if err := failure(f.World, "kiriFrame_SetPieceUserData", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolFrameGetPieceUserData pool[struct {
@@ -2090,13 +2090,13 @@ func (f Frame) PieceUserData() (uint64, error) {
 }
 
 var poolSheetRaycast pool[struct {
-	origin [3]float32
+	origin    [3]float32
 	direction [3]float32
-	hit Hit
+	hit       Hit
 }]
 
-// Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
-// does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+// not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 func (s Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
 	var made0 Hit
 	if err := s.World.check(); err != nil {
@@ -2115,14 +2115,14 @@ func (s Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance floa
 }
 
 var poolWorldRaycast pool[struct {
-	origin [3]float32
+	origin    [3]float32
 	direction [3]float32
-	sheet C.kiriSheet
-	hit Hit
+	sheet     C.kiriSheet
+	hit       Hit
 }]
 
-// Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
-// does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+// not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Sheet, Hit, error) {
 	var made0 Sheet
 	var made1 Hit
@@ -2143,7 +2143,7 @@ func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance flo
 
 var poolSheetGetPoint pool[struct {
 	restPoint [2]float32
-	state PointState
+	state     PointState
 }]
 
 // Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point.
@@ -2205,7 +2205,7 @@ func (s Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 
 var poolSheetGetPieceFrames pool[struct {
 	frames *C.kiriFrame
-	count C.int32_t
+	count  C.int32_t
 }]
 
 // Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
@@ -2340,7 +2340,7 @@ func (s Sheet) DropCrumbs(area float32) (int, error) {
 
 var poolSheetBeginCut pool[struct {
 	restPoint [2]float32
-	cut C.kiriCut
+	cut       C.kiriCut
 }]
 
 // Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
@@ -2363,35 +2363,35 @@ func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 
 // Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
 // point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
-func (c Cut) Extend(restPoints [][2]float32) (bool, error) {
+func (c Cut) Extend(restPoints [][2]float32) error {
 	if err := c.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriCut_Extend(c.World.c, C.kiriCut(c.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)))
 	runtime.KeepAlive(c.World)
 	if err := failure(c.World, "kiriCut_Extend", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
 // point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
-func (c Cut) End() (bool, error) {
+func (c Cut) End() error {
 	if err := c.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriCut_End(c.World.c, C.kiriCut(c.ID))
 	runtime.KeepAlive(c.World)
 	if err := failure(c.World, "kiriCut_End", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetSlice pool[struct {
 	blade [12]float32
-	cut C.kiriCut
+	cut   C.kiriCut
 }]
 
 // Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
@@ -2434,14 +2434,14 @@ func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 
 var poolBladeMoveEdge pool[struct {
 	from [3]float32
-	to [3]float32
+	to   [3]float32
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
 // each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-func (b Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
+func (b Blade) MoveEdge(from [3]float32, to [3]float32) error {
 	if err := b.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolBladeMoveEdge.take()
 	block.from = from
@@ -2450,21 +2450,21 @@ func (b Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
 	poolBladeMoveEdge.give(block)
 	runtime.KeepAlive(b.World)
 	if err := failure(b.World, "kiriBlade_MoveEdge", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolBladeMoveRay pool[struct {
-	origin [3]float32
+	origin    [3]float32
 	direction [3]float32
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
 // each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) (bool, error) {
+func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) error {
 	if err := b.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolBladeMoveRay.take()
 	block.origin = origin
@@ -2473,22 +2473,22 @@ func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) 
 	poolBladeMoveRay.give(block)
 	runtime.KeepAlive(b.World)
 	if err := failure(b.World, "kiriBlade_MoveRay", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
-func (b Blade) End() (bool, error) {
+func (b Blade) End() error {
 	if err := b.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriBlade_End(b.World.c, C.kiriBlade(b.ID))
 	runtime.KeepAlive(b.World)
 	if err := failure(b.World, "kiriBlade_End", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetGetFrames pool[struct {
@@ -2502,7 +2502,7 @@ func (s Sheet) Frames() ([]Frame, error) {
 		return made0, err
 	}
 	room := C.int32_t(64)
-	again:
+again:
 	frames := make([]C.kiriFrame, room)
 	block := poolSheetGetFrames.take()
 	result := C.kiriSheet_GetFrames(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(frames), room, &block.count)
@@ -2541,20 +2541,20 @@ func (f Frame) State() (FrameState, error) {
 // Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
 // (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
 // Material of which held frames carry more than half moves through obstacles.
-func (f Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error) {
+func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
 	if err := f.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriFrame_Hold(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
 	runtime.KeepAlive(f.World)
 	if err := failure(f.World, "kiriFrame_Hold", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolFrameGetReaction pool[struct {
-	force [3]float64
+	force  [3]float64
 	torque [3]float64
 }]
 
@@ -2577,14 +2577,14 @@ func (f Frame) Reaction() ([3]float64, [3]float64, error) {
 }
 
 var poolFrameApplyForce pool[struct {
-	force [3]float32
+	force  [3]float32
 	torque [3]float32
 }]
 
 // Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
-func (f Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
+func (f Frame) ApplyForce(force [3]float32, torque [3]float32) error {
 	if err := f.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolFrameApplyForce.take()
 	block.force = force
@@ -2593,21 +2593,21 @@ func (f Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
 	poolFrameApplyForce.give(block)
 	runtime.KeepAlive(f.World)
 	if err := failure(f.World, "kiriFrame_ApplyForce", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetApplyForce pool[struct {
 	restPoint [2]float32
-	force [3]float32
-	torque [3]float32
+	force     [3]float32
+	torque    [3]float32
 }]
 
 // Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
-func (s Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
+func (s Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolSheetApplyForce.take()
 	block.restPoint = restPoint
@@ -2617,22 +2617,22 @@ func (s Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]floa
 	poolSheetApplyForce.give(block)
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_ApplyForce", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetApplyLineLoad pool[struct {
-	from [2]float32
-	to [2]float32
+	from           [2]float32
+	to             [2]float32
 	forcePerLength [3]float32
 }]
 
 // Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges included.
 // Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
-func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) (bool, error) {
+func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolSheetApplyLineLoad.take()
 	block.from = from
@@ -2642,34 +2642,34 @@ func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]f
 	poolSheetApplyLineLoad.give(block)
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_ApplyLineLoad", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
-func (s Sheet) ApplyPressure(pressure float32) (bool, error) {
+func (s Sheet) ApplyPressure(pressure float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_ApplyPressure(s.World.c, C.kiriSheet(s.ID), C.float(pressure))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_ApplyPressure", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetApplyImpulse pool[struct {
 	restPoint [2]float32
-	impulse [3]float32
+	impulse   [3]float32
 }]
 
 // Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
 // frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
-func (s Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
+func (s Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolSheetApplyImpulse.take()
 	block.restPoint = restPoint
@@ -2678,22 +2678,22 @@ func (s Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, err
 	poolSheetApplyImpulse.give(block)
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_ApplyImpulse", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Copies the wind; it blows until the next call.
-func (s Sheet) SetWind(wind *Wind) (bool, error) {
+func (s Sheet) SetWind(wind *Wind) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_SetWind(s.World.c, C.kiriSheet(s.ID), (*C.kiriWind)(unsafe.Pointer(wind)))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetWind", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolDefaultPinDef pool[struct {
@@ -2729,21 +2729,21 @@ func (s Sheet) CreatePin(def *PinDef) (Pin, error) {
 }
 
 // Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
-func (p Pin) Destroy() (bool, error) {
+func (p Pin) Destroy() error {
 	if err := p.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriDestroyPin(p.World.c, C.kiriPin(p.ID))
 	runtime.KeepAlive(p.World)
 	if err := failure(p.World, "kiriDestroyPin", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetClampLine pool[struct {
-	from [2]float32
-	to [2]float32
+	from  [2]float32
+	to    [2]float32
 	clamp C.kiriPin
 }]
 
@@ -2769,8 +2769,8 @@ func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 }
 
 var poolSheetHingeLine pool[struct {
-	from [2]float32
-	to [2]float32
+	from  [2]float32
+	to    [2]float32
 	hinge C.kiriPin
 }]
 
@@ -2802,9 +2802,9 @@ var poolPinSetTarget pool[struct {
 // Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
 // the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible surface.
 // A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
-func (p Pin) SetTarget(target [3]float32) (bool, error) {
+func (p Pin) SetTarget(target [3]float32) error {
 	if err := p.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolPinSetTarget.take()
 	block.target = target
@@ -2812,21 +2812,21 @@ func (p Pin) SetTarget(target [3]float32) (bool, error) {
 	poolPinSetTarget.give(block)
 	runtime.KeepAlive(p.World)
 	if err := failure(p.World, "kiriPin_SetTarget", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolPinSetPose pool[struct {
-	target [3]float32
+	target   [3]float32
 	rotation [9]float32
 }]
 
 // Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
 // planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
-func (p Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
+func (p Pin) SetPose(target [3]float32, rotation [9]float32) error {
 	if err := p.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolPinSetPose.take()
 	block.target = target
@@ -2835,22 +2835,22 @@ func (p Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
 	poolPinSetPose.give(block)
 	runtime.KeepAlive(p.World)
 	if err := failure(p.World, "kiriPin_SetPose", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Sets the force (N) that breaks a pin of any type; 0: it never breaks.
-func (p Pin) SetBreakForce(breakForce float32) (bool, error) {
+func (p Pin) SetBreakForce(breakForce float32) error {
 	if err := p.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriPin_SetBreakForce(p.World.c, C.kiriPin(p.ID), C.float(breakForce))
 	runtime.KeepAlive(p.World)
 	if err := failure(p.World, "kiriPin_SetBreakForce", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolPinGetState pool[struct {
@@ -2874,7 +2874,7 @@ func (p Pin) State() (PinState, error) {
 }
 
 var poolPinGetReaction pool[struct {
-	force [3]float64
+	force  [3]float64
 	torque [3]float64
 }]
 
@@ -2907,7 +2907,7 @@ func (s Sheet) Pins() ([]Pin, error) {
 		return made0, err
 	}
 	room := C.int32_t(64)
-	again:
+again:
 	pins := make([]C.kiriPin, room)
 	block := poolSheetGetPins.take()
 	result := C.kiriSheet_GetPins(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(pins), room, &block.count)
@@ -2962,29 +2962,29 @@ func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 
 // Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
 // KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
-func (s Seam) Destroy() (bool, error) {
+func (s Seam) Destroy() error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriDestroySeam(s.World.c, C.kiriSeam(s.ID))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriDestroySeam", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 // Sets stiffness and restAngle, as in the def.
-func (s Seam) SetHinge(stiffness float32, restAngle float32) (bool, error) {
+func (s Seam) SetHinge(stiffness float32, restAngle float32) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSeam_SetHinge(s.World.c, C.kiriSeam(s.ID), C.float(stiffness), C.float(restAngle))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSeam_SetHinge", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSeamGetStitch pool[struct {
@@ -3038,7 +3038,7 @@ func (w *World) Seams() ([]Seam, error) {
 		return made0, err
 	}
 	room := C.int32_t(64)
-	again:
+again:
 	seams := make([]C.kiriSeam, room)
 	block := poolWorldGetSeams.take()
 	result := C.kiriWorld_GetSeams(w.c, unsafe.SliceData(seams), room, &block.count)
@@ -3056,21 +3056,21 @@ func (w *World) Seams() ([]Seam, error) {
 
 // Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
 // or rest point, and obstacle of an earlier one starts with the earlier impulse.
-func (s Sheet) SetContacts(contacts []Contact) (bool, error) {
+func (s Sheet) SetContacts(contacts []Contact) error {
 	if err := s.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriSheet_SetContacts(s.World.c, C.kiriSheet(s.ID), (*C.kiriContact)(unsafe.Pointer(unsafe.SliceData(contacts))), C.int32_t(len(contacts)))
 	runtime.KeepAlive(s.World)
 	if err := failure(s.World, "kiriSheet_SetContacts", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolSheetGetContactForces pool[struct {
 	forces *C.kiriContactForce
-	count C.int32_t
+	count  C.int32_t
 }]
 
 // Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on.
@@ -3126,16 +3126,16 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 }
 
 // Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
-func (o Obstacle) Destroy() (bool, error) {
+func (o Obstacle) Destroy() error {
 	if err := o.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	result := C.kiriDestroyObstacle(o.World.c, C.kiriObstacle(o.ID))
 	runtime.KeepAlive(o.World)
 	if err := failure(o.World, "kiriDestroyObstacle", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolObstacleSetPose pool[struct {
@@ -3144,9 +3144,9 @@ var poolObstacleSetPose pool[struct {
 }]
 
 // Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.
-func (o Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error) {
+func (o Obstacle) SetPose(position [3]float32, rotation [9]float32) error {
 	if err := o.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolObstacleSetPose.take()
 	block.position = position
@@ -3155,20 +3155,20 @@ func (o Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error
 	poolObstacleSetPose.give(block)
 	runtime.KeepAlive(o.World)
 	if err := failure(o.World, "kiriObstacle_SetPose", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolObstacleSetVelocity pool[struct {
-	velocity [3]float32
+	velocity        [3]float32
 	angularVelocity [3]float32
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (o Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+func (o Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) error {
 	if err := o.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolObstacleSetVelocity.take()
 	block.velocity = velocity
@@ -3177,9 +3177,9 @@ func (o Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (
 	poolObstacleSetVelocity.give(block)
 	runtime.KeepAlive(o.World)
 	if err := failure(o.World, "kiriObstacle_SetVelocity", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolObstacleSetSurfaceVelocity pool[struct {
@@ -3187,9 +3187,9 @@ var poolObstacleSetSurfaceVelocity pool[struct {
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (o Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
+func (o Obstacle) SetSurfaceVelocity(velocity [3]float32) error {
 	if err := o.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolObstacleSetSurfaceVelocity.take()
 	block.velocity = velocity
@@ -3197,20 +3197,20 @@ func (o Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
 	poolObstacleSetSurfaceVelocity.give(block)
 	runtime.KeepAlive(o.World)
 	if err := failure(o.World, "kiriObstacle_SetSurfaceVelocity", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolObstacleSetMass pool[struct {
-	inertia [6]float32
+	inertia      [6]float32
 	centerOfMass [3]float32
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (o Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
+func (o Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) error {
 	if err := o.World.check(); err != nil {
-		return false, err
+		return err
 	}
 	block := poolObstacleSetMass.take()
 	block.inertia = inertia
@@ -3219,9 +3219,9 @@ func (o Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]floa
 	poolObstacleSetMass.give(block)
 	runtime.KeepAlive(o.World)
 	if err := failure(o.World, "kiriObstacle_SetMass", result, true); err != nil {
-		return false, err
+		return err
 	}
-	return result == C.KIRI_PENDING, nil
+	return nil
 }
 
 var poolObstacleGetState pool[struct {
@@ -3269,126 +3269,126 @@ func (s Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 
 // For the test that none is missing.
 var functions = map[string]string{
-	"kiriGetVersion": ".GetVersion",
-	"kiriGetResultName": ".GetResultName",
-	"kiriGetResultText": ".GetResultText",
-	"kiriDefaultWorldDef": ".NewWorld",
-	"kiriCreateWorld": ".NewWorld",
-	"kiriDestroyWorld": "World.Destroy",
-	"kiriWorld_Tick": "World.Tick",
-	"kiriWorld_GetLastError": "World.LastError",
-	"kiriWorld_ShiftOrigin": "World.ShiftOrigin",
-	"kiriWorld_SetGravity": "World.SetGravity",
-	"kiriWorld_SetBudget": "World.SetBudget",
-	"kiriWorld_GetStateHash": "World.StateHash",
-	"kiriWorld_GetSheets": "World.Sheets",
-	"kiriWorld_Note": "World.Note",
-	"kiriWorld_Replay": "World.Replay",
-	"kiriWorld_Save": "World.Save",
-	"kiriWorld_FinishCuts": "World.FinishCuts",
-	"kiriWorld_Load": "World.Load",
-	"kiriWorld_Snapshot": "World.Snapshot",
-	"kiriWorld_Restore": "World.Restore",
-	"kiriWorld_GetEvents": "World.Events",
-	"kiriWorld_GetProfile": "World.Profile",
-	"kiriFitBudget": ".FitBudget",
-	"kiriGetStageName": ".GetStageName",
-	"kiriGetMaterial": ".GetMaterial",
-	"kiriGetQuality": ".GetQuality",
-	"kiriDefaultSheetDef": ".DefaultSheetDef",
-	"kiriCreateSheet": "World.CreateSheet",
-	"kiriDestroySheet": "Sheet.Destroy",
-	"kiriCreateRectangle": "World.CreateRectangle",
-	"kiriSheet_GetSettings": "Sheet.Settings",
-	"kiriSheet_SetSettings": "Sheet.SetSettings",
-	"kiriCreateFoldedSheet": "World.CreateFoldedSheet",
-	"kiriSheet_AddFold": "Sheet.AddFold",
-	"kiriSheet_GetFold": "Sheet.Fold",
-	"kiriSheet_SetFold": "Sheet.SetFold",
-	"kiriFillRectangle": ".FillRectangle",
-	"kiriSheet_GetMesh": "Sheet.Mesh",
-	"kiriSheet_GetDirty": "Sheet.Dirty",
-	"kiriSheet_CopyVertices": "Sheet.CopyVertices",
-	"kiriSheet_CopyPrevious": "Sheet.CopyPrevious",
-	"kiriSheet_CopyIndices16": "Sheet.CopyIndices16",
-	"kiriSheet_CopySources": "Sheet.CopySources",
-	"kiriSheet_CopySourceWeights": "Sheet.CopySourceWeights",
-	"kiriSheet_GetSolid": "Sheet.Solid",
-	"kiriSheet_GetCollisionPoints": "Sheet.CollisionPoints",
-	"kiriSheet_GetCounts": "Sheet.Counts",
-	"kiriSheet_GetTotals": "Sheet.Totals",
-	"kiriSheet_EstimateError": "Sheet.EstimateError",
-	"kiriSheet_IsAwake": "Sheet.IsAwake",
-	"kiriSheet_Wake": "Sheet.Wake",
-	"kiriSheet_Transform": "Sheet.Transform",
-	"kiriSheet_SetVelocity": "Sheet.SetVelocity",
-	"kiriFrame_SetPieceVelocity": "Frame.SetPieceVelocity",
-	"kiriSheet_SetUserData": "Sheet.SetUserData",
-	"kiriSheet_GetUserData": "Sheet.UserData",
-	"kiriPin_SetUserData": "Pin.SetUserData",
-	"kiriPin_GetUserData": "Pin.UserData",
-	"kiriFrame_SetPieceUserData": "Frame.SetPieceUserData",
-	"kiriFrame_GetPieceUserData": "Frame.PieceUserData",
-	"kiriSheet_Raycast": "Sheet.Raycast",
-	"kiriWorld_Raycast": "World.Raycast",
-	"kiriSheet_GetPoint": "Sheet.Point",
-	"kiriSheet_GetWeights": "Sheet.Weights",
-	"kiriSheet_GetPiece": "Sheet.Piece",
-	"kiriSheet_GetPieceMesh": "Sheet.PieceMesh",
-	"kiriSheet_GetPieceFrames": "Sheet.PieceFrames",
-	"kiriFrame_GetPiece": "Frame.Piece",
-	"kiriFrame_DetachPiece": "Frame.DetachPiece",
-	"kiriFrame_DestroyPiece": "Frame.DestroyPiece",
-	"kiriWorld_DetachPieces": "World.DetachPieces",
-	"kiriWorld_DestroyPieces": "World.DestroyPieces",
-	"kiriSheet_DropCrumbs": "Sheet.DropCrumbs",
-	"kiriBeginCut": "Sheet.BeginCut",
-	"kiriCut_Extend": "Cut.Extend",
-	"kiriCut_End": "Cut.End",
-	"kiriSheet_Slice": "Sheet.Slice",
-	"kiriBeginBlade": "World.BeginBlade",
-	"kiriBlade_MoveEdge": "Blade.MoveEdge",
-	"kiriBlade_MoveRay": "Blade.MoveRay",
-	"kiriBlade_End": "Blade.End",
-	"kiriSheet_GetFrames": "Sheet.Frames",
-	"kiriFrame_GetState": "Frame.State",
-	"kiriFrame_Hold": "Frame.Hold",
-	"kiriFrame_GetReaction": "Frame.Reaction",
-	"kiriFrame_ApplyForce": "Frame.ApplyForce",
-	"kiriSheet_ApplyForce": "Sheet.ApplyForce",
-	"kiriSheet_ApplyLineLoad": "Sheet.ApplyLineLoad",
-	"kiriSheet_ApplyPressure": "Sheet.ApplyPressure",
-	"kiriSheet_ApplyImpulse": "Sheet.ApplyImpulse",
-	"kiriSheet_SetWind": "Sheet.SetWind",
-	"kiriDefaultPinDef": ".DefaultPinDef",
-	"kiriCreatePin": "Sheet.CreatePin",
-	"kiriDestroyPin": "Pin.Destroy",
-	"kiriSheet_ClampLine": "Sheet.ClampLine",
-	"kiriSheet_HingeLine": "Sheet.HingeLine",
-	"kiriPin_SetTarget": "Pin.SetTarget",
-	"kiriPin_SetPose": "Pin.SetPose",
-	"kiriPin_SetBreakForce": "Pin.SetBreakForce",
-	"kiriPin_GetState": "Pin.State",
-	"kiriPin_GetReaction": "Pin.Reaction",
-	"kiriSheet_GetPins": "Sheet.Pins",
-	"kiriDefaultSeamDef": ".DefaultSeamDef",
-	"kiriCreateSeam": "World.CreateSeam",
-	"kiriDestroySeam": "Seam.Destroy",
-	"kiriSeam_SetHinge": "Seam.SetHinge",
-	"kiriSeam_GetStitch": "Seam.Stitch",
-	"kiriSeam_GetCount": "Seam.Count",
-	"kiriWorld_GetSeams": "World.Seams",
-	"kiriSheet_SetContacts": "Sheet.SetContacts",
-	"kiriSheet_GetContactForces": "Sheet.ContactForces",
-	"kiriDefaultObstacleDef": ".DefaultObstacleDef",
-	"kiriCreateObstacle": "World.CreateObstacle",
-	"kiriDestroyObstacle": "Obstacle.Destroy",
-	"kiriObstacle_SetPose": "Obstacle.SetPose",
-	"kiriObstacle_SetVelocity": "Obstacle.SetVelocity",
+	"kiriGetVersion":                  ".GetVersion",
+	"kiriGetResultName":               ".GetResultName",
+	"kiriGetResultText":               ".GetResultText",
+	"kiriDefaultWorldDef":             ".NewWorld",
+	"kiriCreateWorld":                 ".NewWorld",
+	"kiriDestroyWorld":                "World.Destroy",
+	"kiriWorld_Tick":                  "World.Tick",
+	"kiriWorld_GetLastError":          "World.LastError",
+	"kiriWorld_ShiftOrigin":           "World.ShiftOrigin",
+	"kiriWorld_SetGravity":            "World.SetGravity",
+	"kiriWorld_SetBudget":             "World.SetBudget",
+	"kiriWorld_GetStateHash":          "World.StateHash",
+	"kiriWorld_GetSheets":             "World.Sheets",
+	"kiriWorld_Note":                  "World.Note",
+	"kiriWorld_Replay":                "World.Replay",
+	"kiriWorld_Save":                  "World.Save",
+	"kiriWorld_FinishCuts":            "World.FinishCuts",
+	"kiriWorld_Load":                  "World.Load",
+	"kiriWorld_Snapshot":              "World.Snapshot",
+	"kiriWorld_Restore":               "World.Restore",
+	"kiriWorld_GetEvents":             "World.Events",
+	"kiriWorld_GetProfile":            "World.Profile",
+	"kiriFitBudget":                   ".FitBudget",
+	"kiriGetStageName":                ".GetStageName",
+	"kiriGetMaterial":                 ".GetMaterial",
+	"kiriGetQuality":                  ".GetQuality",
+	"kiriDefaultSheetDef":             ".DefaultSheetDef",
+	"kiriCreateSheet":                 "World.CreateSheet",
+	"kiriDestroySheet":                "Sheet.Destroy",
+	"kiriCreateRectangle":             "World.CreateRectangle",
+	"kiriSheet_GetSettings":           "Sheet.Settings",
+	"kiriSheet_SetSettings":           "Sheet.SetSettings",
+	"kiriCreateFoldedSheet":           "World.CreateFoldedSheet",
+	"kiriSheet_AddFold":               "Sheet.AddFold",
+	"kiriSheet_GetFold":               "Sheet.Fold",
+	"kiriSheet_SetFold":               "Sheet.SetFold",
+	"kiriFillRectangle":               ".FillRectangle",
+	"kiriSheet_GetMesh":               "Sheet.Mesh",
+	"kiriSheet_GetDirty":              "Sheet.Dirty",
+	"kiriSheet_CopyVertices":          "Sheet.CopyVertices",
+	"kiriSheet_CopyPrevious":          "Sheet.CopyPrevious",
+	"kiriSheet_CopyIndices16":         "Sheet.CopyIndices16",
+	"kiriSheet_CopySources":           "Sheet.CopySources",
+	"kiriSheet_CopySourceWeights":     "Sheet.CopySourceWeights",
+	"kiriSheet_GetSolid":              "Sheet.Solid",
+	"kiriSheet_GetCollisionPoints":    "Sheet.CollisionPoints",
+	"kiriSheet_GetCounts":             "Sheet.Counts",
+	"kiriSheet_GetTotals":             "Sheet.Totals",
+	"kiriSheet_EstimateError":         "Sheet.EstimateError",
+	"kiriSheet_IsAwake":               "Sheet.IsAwake",
+	"kiriSheet_Wake":                  "Sheet.Wake",
+	"kiriSheet_Transform":             "Sheet.Transform",
+	"kiriSheet_SetVelocity":           "Sheet.SetVelocity",
+	"kiriFrame_SetPieceVelocity":      "Frame.SetPieceVelocity",
+	"kiriSheet_SetUserData":           "Sheet.SetUserData",
+	"kiriSheet_GetUserData":           "Sheet.UserData",
+	"kiriPin_SetUserData":             "Pin.SetUserData",
+	"kiriPin_GetUserData":             "Pin.UserData",
+	"kiriFrame_SetPieceUserData":      "Frame.SetPieceUserData",
+	"kiriFrame_GetPieceUserData":      "Frame.PieceUserData",
+	"kiriSheet_Raycast":               "Sheet.Raycast",
+	"kiriWorld_Raycast":               "World.Raycast",
+	"kiriSheet_GetPoint":              "Sheet.Point",
+	"kiriSheet_GetWeights":            "Sheet.Weights",
+	"kiriSheet_GetPiece":              "Sheet.Piece",
+	"kiriSheet_GetPieceMesh":          "Sheet.PieceMesh",
+	"kiriSheet_GetPieceFrames":        "Sheet.PieceFrames",
+	"kiriFrame_GetPiece":              "Frame.Piece",
+	"kiriFrame_DetachPiece":           "Frame.DetachPiece",
+	"kiriFrame_DestroyPiece":          "Frame.DestroyPiece",
+	"kiriWorld_DetachPieces":          "World.DetachPieces",
+	"kiriWorld_DestroyPieces":         "World.DestroyPieces",
+	"kiriSheet_DropCrumbs":            "Sheet.DropCrumbs",
+	"kiriBeginCut":                    "Sheet.BeginCut",
+	"kiriCut_Extend":                  "Cut.Extend",
+	"kiriCut_End":                     "Cut.End",
+	"kiriSheet_Slice":                 "Sheet.Slice",
+	"kiriBeginBlade":                  "World.BeginBlade",
+	"kiriBlade_MoveEdge":              "Blade.MoveEdge",
+	"kiriBlade_MoveRay":               "Blade.MoveRay",
+	"kiriBlade_End":                   "Blade.End",
+	"kiriSheet_GetFrames":             "Sheet.Frames",
+	"kiriFrame_GetState":              "Frame.State",
+	"kiriFrame_Hold":                  "Frame.Hold",
+	"kiriFrame_GetReaction":           "Frame.Reaction",
+	"kiriFrame_ApplyForce":            "Frame.ApplyForce",
+	"kiriSheet_ApplyForce":            "Sheet.ApplyForce",
+	"kiriSheet_ApplyLineLoad":         "Sheet.ApplyLineLoad",
+	"kiriSheet_ApplyPressure":         "Sheet.ApplyPressure",
+	"kiriSheet_ApplyImpulse":          "Sheet.ApplyImpulse",
+	"kiriSheet_SetWind":               "Sheet.SetWind",
+	"kiriDefaultPinDef":               ".DefaultPinDef",
+	"kiriCreatePin":                   "Sheet.CreatePin",
+	"kiriDestroyPin":                  "Pin.Destroy",
+	"kiriSheet_ClampLine":             "Sheet.ClampLine",
+	"kiriSheet_HingeLine":             "Sheet.HingeLine",
+	"kiriPin_SetTarget":               "Pin.SetTarget",
+	"kiriPin_SetPose":                 "Pin.SetPose",
+	"kiriPin_SetBreakForce":           "Pin.SetBreakForce",
+	"kiriPin_GetState":                "Pin.State",
+	"kiriPin_GetReaction":             "Pin.Reaction",
+	"kiriSheet_GetPins":               "Sheet.Pins",
+	"kiriDefaultSeamDef":              ".DefaultSeamDef",
+	"kiriCreateSeam":                  "World.CreateSeam",
+	"kiriDestroySeam":                 "Seam.Destroy",
+	"kiriSeam_SetHinge":               "Seam.SetHinge",
+	"kiriSeam_GetStitch":              "Seam.Stitch",
+	"kiriSeam_GetCount":               "Seam.Count",
+	"kiriWorld_GetSeams":              "World.Seams",
+	"kiriSheet_SetContacts":           "Sheet.SetContacts",
+	"kiriSheet_GetContactForces":      "Sheet.ContactForces",
+	"kiriDefaultObstacleDef":          ".DefaultObstacleDef",
+	"kiriCreateObstacle":              "World.CreateObstacle",
+	"kiriDestroyObstacle":             "Obstacle.Destroy",
+	"kiriObstacle_SetPose":            "Obstacle.SetPose",
+	"kiriObstacle_SetVelocity":        "Obstacle.SetVelocity",
 	"kiriObstacle_SetSurfaceVelocity": "Obstacle.SetSurfaceVelocity",
-	"kiriObstacle_SetMass": "Obstacle.SetMass",
-	"kiriObstacle_GetState": "Obstacle.State",
-	"kiriSheet_GetReach": "Sheet.Reach",
-	"kiriDefaultDebugDraw": ".DebugDraw",
-	"kiriWorld_DebugDraw": "World.DebugDraw",
+	"kiriObstacle_SetMass":            "Obstacle.SetMass",
+	"kiriObstacle_GetState":           "Obstacle.State",
+	"kiriSheet_GetReach":              "Sheet.Reach",
+	"kiriDefaultDebugDraw":            ".DebugDraw",
+	"kiriWorld_DebugDraw":             "World.DebugDraw",
 }

@@ -13,6 +13,12 @@ import (
 	"testing"
 )
 
+func ok(err error) {
+	if err != nil {
+		panic(err)
+	}
+}
+
 func must[T any](value T, err error) T {
 	if err != nil {
 		panic(err)
@@ -37,8 +43,8 @@ func halved(def *WorldDef) (*World, Sheet) {
 	sheetDef.FrameCount = 4
 	sheet := must(world.CreateRectangle(1, 1, 8, 8, &sheetDef))
 	cut := must(sheet.BeginCut([2]float32{-0.1, 0.4}))
-	must(cut.Extend([][2]float32{{1.1, 0.6}}))
-	must(cut.End())
+	ok(cut.Extend([][2]float32{{1.1, 0.6}}))
+	ok(cut.End())
 	return world, sheet
 }
 
@@ -87,15 +93,15 @@ func TestTwinHasTheHashOfC(t *testing.T) {
 	ball.Type, ball.Radius, ball.Position = ObstacleSphere, 0.25, [3]float32{0.5, 0.5, 0.5}
 	must(world.CreateObstacle(&ball))
 	cut := must(sheet.BeginCut([2]float32{0.3, -0.1}))
-	must(cut.Extend([][2]float32{{0.3, 0.4}, {0.7, 0.45}, {0.65, 0.85}}))
-	must(cut.End())
+	ok(cut.Extend([][2]float32{{0.3, 0.4}, {0.7, 0.45}, {0.65, 0.85}}))
+	ok(cut.End())
 	blade := must(world.BeginBlade(Sheet{}))
 	for tick := range 120 {
 		if tick >= 40 && tick < 60 {
 			x := 0.0625 * float32(tick-44)
-			must(blade.MoveEdge([3]float32{x, 0.125, -1}, [3]float32{x, 0.125, 2}))
+			ok(blade.MoveEdge([3]float32{x, 0.125, -1}, [3]float32{x, 0.125, 2}))
 		} else if tick == 60 {
-			must(blade.End())
+			ok(blade.End())
 		}
 		must(world.Tick(1.0/60, 2))
 		events := must(world.Events())
@@ -180,12 +186,12 @@ func TestSheetsFromArraysAndPieces(t *testing.T) {
 		t.Error(len(frames))
 	}
 	held := must(two.Frames())[0]
-	must(held.Hold(&[3]float32{}, &[9]float32{1, 0, 0, 0, 1, 0, 0, 0, 1}))
+	ok(held.Hold(&[3]float32{}, &[9]float32{1, 0, 0, 0, 1, 0, 0, 0, 1}))
 	if must(held.State()).Held != 1 {
 		t.Error("it is not held")
 	}
-	must(held.Hold(nil, nil))
-	must(two.SetContacts([]Contact{{Point: -1, RestPoint: [2]float32{0.5, 0.5}, Normal: [3]float32{0, 0, 1}}}))
+	ok(held.Hold(nil, nil))
+	ok(two.SetContacts([]Contact{{Point: -1, RestPoint: [2]float32{0.5, 0.5}, Normal: [3]float32{0, 0, 1}}}))
 	must(world.Tick(1.0/60, 1))
 	if must(two.ContactForces()).Len() != 1 {
 		t.Error("no contact")
@@ -216,7 +222,7 @@ func TestRecordSaveAndReplay(t *testing.T) {
 	def.Record = func(bytes []byte) { recording = append(recording, bytes...) }
 	def.Log = func(string) { lines++ }
 	world, _ := halved(&def)
-	must(world.Note([]byte("hello")))
+	ok(world.Note([]byte("hello")))
 	for range 100 {
 		must(world.Tick(1.0/60, 1))
 	}
@@ -236,7 +242,7 @@ func TestRecordSaveAndReplay(t *testing.T) {
 		t.Error(notes, at)
 	}
 	other := must(NewWorld(nil))
-	must(other.Load(save))
+	ok(other.Load(save))
 	if must(other.StateHash()) != hash {
 		t.Error("the save gives another state")
 	}

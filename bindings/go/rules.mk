@@ -14,7 +14,7 @@ NO_CONTRACTION = '\#if defined(__clang__)' '\#pragma STDC FP_CONTRACT OFF' '\#el
 
 go: $(BUILD)/libkiri.so $(BUILD)/tests/twin
 	@if ! { $(GO_IS_THERE); }; then echo "go: no go 1.24 or later, binding not tested"; exit 0; fi; \
-	echo "== bindings/go"; cd bindings/go && KIRI_TWIN=$(CURDIR)/$(BUILD)/tests/twin $(GO_RUN) test -count 1 ./ && \
+	echo "== bindings/go"; cd bindings/go && { [ -z "$$(gofmt -l . 2> /dev/null)" ] || { gofmt -d . ; exit 1; }; } && KIRI_TWIN=$(CURDIR)/$(BUILD)/tests/twin $(GO_RUN) test -count 1 ./ && \
 	[ "$$($(GO_RUN) run ./first_cut)" = "2 pieces" ]
 
 bench-go: $(BUILD)/libkiri.so

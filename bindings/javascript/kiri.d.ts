@@ -960,8 +960,8 @@ export class PinDef {
     stiffness: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce: number;
-    /** or 0. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If it
-     *  is destroyed the target stays */
+    /** 0: none. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If
+     *  it is destroyed the target stays */
     obstacle: Obstacle | null;
 }
 /** What a host gives as PinDef: what is left out is as the default has it. */
@@ -975,8 +975,8 @@ export interface PinDefGiven {
     stiffness?: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce?: number;
-    /** or 0. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If it
-     *  is destroyed the target stays */
+    /** 0: none. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If
+     *  it is destroyed the target stays */
     obstacle?: Obstacle | null;
 }
 
@@ -997,7 +997,7 @@ export class PinState {
     rotation: number[];
     /** N, or 0 */
     breakForce: number;
-    /** that the target moves with, or 0 */
+    /** that the target moves with; 0: none */
     obstacle: Obstacle | null;
 }
 
@@ -1338,8 +1338,8 @@ export class World {
     /** Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model
      *  is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
-    /** Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if
-     *  it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
+    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
+     *  does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): { sheet: Sheet | null, hit: Hit };
     /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
      *  count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
@@ -1444,8 +1444,8 @@ export class Sheet {
      *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
      *  both. */
     getUserData(): bigint;
-    /** Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if
-     *  it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
+    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
+     *  does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): Hit;
     /** Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point. */
     getPoint(restPoint: ArrayLike<number>, into?: PointState): PointState;

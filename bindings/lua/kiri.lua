@@ -1254,8 +1254,8 @@ function Frame:getPieceUserData()
     return data
 end
 
---- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
---- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+--- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 function Sheet:raycast(origin, direction, maxDistance, hit)
     local world = self.world
     hit = hit or new.kiriHit()
@@ -1264,8 +1264,8 @@ function Sheet:raycast(origin, direction, maxDistance, hit)
     return hit
 end
 
---- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
---- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+--- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 function World:raycast(origin, direction, maxDistance, hit)
     local world = self
     hit = hit or new.kiriHit()

@@ -233,14 +233,14 @@ enum kiriEventType {
 typedef struct kiriEvent {
     int32_t type; /* KIRI_EVENT_... */
     kiriSheet sheet;
-    kiriCut cut;     /* or 0 */
-    kiriFrame frame; /* or 0 */
-    kiriPin pin;     /* or 0 */
+    kiriCut cut;     /* 0: none */
+    kiriFrame frame; /* 0: none */
+    kiriPin pin;     /* 0: none */
     int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
     int32_t waiting; /* points and ends of cuts that are pending or in work; or 0 */
-    kiriSeam seam;   /* or 0 */
+    kiriSeam seam;   /* 0: none */
     int32_t stitches; /* that the seam has left, or 0 */
 } kiriEvent;
 
@@ -636,7 +636,7 @@ typedef struct kiriHit {
     int32_t triangle;   /* -1: none */
 } kiriHit;
 
-/* Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+/* Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
    does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
@@ -825,7 +825,7 @@ typedef struct kiriPinDef {
     float target[3];       /* m, world */
     float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
     float breakForce;      /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
-    kiriObstacle obstacle; /* or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
+    kiriObstacle obstacle; /* 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
                               yields by its mass. If it is destroyed the target stays */
 } kiriPinDef;
 
@@ -868,7 +868,7 @@ typedef struct kiriPinState {
     float target[3];       /* m, world */
     float rotation[9];     /* of a line; of a point the identity */
     float breakForce;      /* N, or 0 */
-    kiriObstacle obstacle; /* that the target moves with, or 0 */
+    kiriObstacle obstacle; /* that the target moves with; 0: none */
 } kiriPinState;
 
 /* Gets the current state. */

@@ -700,8 +700,8 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit-&gt;triangle is
-        /// -1 if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle is -1
+        /// if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
         /// ray.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Sheet sheet, out Hit hit)
         {
@@ -1095,8 +1095,8 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit-&gt;triangle is
-        /// -1 if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle is -1
+        /// if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
         /// ray.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Hit hit)
         {

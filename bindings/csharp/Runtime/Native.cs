@@ -602,11 +602,11 @@ namespace Kiri
         /// <summary>KIRI_EVENT_...</summary>
         public EventType Type;
         public SheetId Sheet;
-        /// <summary>or 0</summary>
+        /// <summary>0: none</summary>
         public CutId Cut;
-        /// <summary>or 0</summary>
+        /// <summary>0: none</summary>
         public FrameId Frame;
-        /// <summary>or 0</summary>
+        /// <summary>0: none</summary>
         public PinId Pin;
         /// <summary>1: the piece is a crumb, see kiriSheetDef</summary>
         public Flag Crumb;
@@ -616,7 +616,7 @@ namespace Kiri
         public Stage Stage;
         /// <summary>points and ends of cuts that are pending or in work; or 0</summary>
         public int Waiting;
-        /// <summary>or 0</summary>
+        /// <summary>0: none</summary>
         public SeamId Seam;
         /// <summary>that the seam has left, or 0</summary>
         public int Stitches;
@@ -1127,7 +1127,7 @@ namespace Kiri
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;
-        /// <summary>or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its
+        /// <summary>0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its
         /// mass. If it is destroyed the target stays</summary>
         public ObstacleId Obstacle;
 
@@ -1160,7 +1160,7 @@ namespace Kiri
         public Float9 Rotation;
         /// <summary>N, or 0</summary>
         public float BreakForce;
-        /// <summary>that the target moves with, or 0</summary>
+        /// <summary>that the target moves with; 0: none</summary>
         public ObstacleId Obstacle;
     }
 

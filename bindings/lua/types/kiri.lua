@@ -114,14 +114,14 @@ kiri.DRAW_ALL = 2047
 ---@class kiri.Event
 ---@field type? integer # KIRI_EVENT_...
 ---@field sheet? kiri.Sheet
----@field cut? kiri.Cut # or 0
----@field frame? kiri.Frame # or 0
----@field pin? kiri.Pin # or 0
+---@field cut? kiri.Cut # 0: none
+---@field frame? kiri.Frame # 0: none
+---@field pin? kiri.Pin # 0: none
 ---@field crumb? boolean|integer # 1: the piece is a crumb, see kiriSheetDef
 ---@field area? number # m^2 of the piece, or 0
 ---@field stage? integer # KIRI_STAGE_..., or -1
 ---@field waiting? integer # points and ends of cuts that are pending or in work; or 0
----@field seam? kiri.Seam # or 0
+---@field seam? kiri.Seam # 0: none
 ---@field stitches? integer # that the seam has left, or 0
 
 --- Work and time of the last tick.
@@ -377,7 +377,7 @@ kiri.DRAW_ALL = 2047
 ---@field target? number[]|ffi.cdata* # m, world
 ---@field stiffness? number # N/m; 0: ten times Young's modulus times thickness
 ---@field breakForce? number # N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
----@field obstacle? kiri.Obstacle # or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
+---@field obstacle? kiri.Obstacle # 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
 
 --- Type and target of a pin.
 ---@class kiri.PinState
@@ -388,7 +388,7 @@ kiri.DRAW_ALL = 2047
 ---@field target? number[]|ffi.cdata* # m, world
 ---@field rotation? number[]|ffi.cdata* # of a line; of a point the identity
 ---@field breakForce? number # N, or 0
----@field obstacle? kiri.Obstacle # that the target moves with, or 0
+---@field obstacle? kiri.Obstacle # that the target moves with; 0: none
 
 --- A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
 --- into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
@@ -958,8 +958,8 @@ function Frame:setPieceUserData(data) end
 ---@return integer
 function Frame:getPieceUserData() end
 
---- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
---- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+--- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param maxDistance number
@@ -967,8 +967,8 @@ function Frame:getPieceUserData() end
 ---@return kiri.Hit
 function Sheet:raycast(origin, direction, maxDistance, hit) end
 
---- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
---- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
+--- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param maxDistance number

@@ -291,11 +291,11 @@ pub struct kiriEvent {
     /// KIRI_EVENT_...
     pub type_: i32,
     pub sheet: kiriSheet,
-    /// or 0
+    /// 0: none
     pub cut: kiriCut,
-    /// or 0
+    /// 0: none
     pub frame: kiriFrame,
-    /// or 0
+    /// 0: none
     pub pin: kiriPin,
     /// 1: the piece is a crumb, see kiriSheetDef
     pub crumb: i32,
@@ -305,7 +305,7 @@ pub struct kiriEvent {
     pub stage: i32,
     /// points and ends of cuts that are pending or in work; or 0
     pub waiting: i32,
-    /// or 0
+    /// 0: none
     pub seam: kiriSeam,
     /// that the seam has left, or 0
     pub stitches: i32,
@@ -825,8 +825,8 @@ pub struct kiriPinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
-    /// or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
-    /// yields by its mass. If it is destroyed the target stays
+    /// 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState)
+    /// and yields by its mass. If it is destroyed the target stays
     pub obstacle: kiriObstacle,
 }
 
@@ -847,7 +847,7 @@ pub struct kiriPinState {
     pub rotation: [f32; 9],
     /// N, or 0
     pub breakForce: f32,
-    /// that the target moves with, or 0
+    /// that the target moves with; 0: none
     pub obstacle: kiriObstacle,
 }
 
@@ -1255,11 +1255,11 @@ unsafe extern "C" {
     /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
     /// it, and a sheet that is made of it has both.
     pub fn kiriFrame_GetPieceUserData(world: *const kiriWorld, frame: kiriFrame, data: *mut u64) -> kiriResult;
-    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to maxDistance;
+    /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to maxDistance;
     /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
     /// sheet until 120 ticks pass without a ray.
     pub fn kiriSheet_Raycast(world: *const kiriWorld, sheet: kiriSheet, origin: *const f32, direction: *const f32, maxDistance: f32, hit: *mut kiriHit) -> kiriResult;
-    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to maxDistance;
+    /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to maxDistance;
     /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
     /// sheet until 120 ticks pass without a ray.
     pub fn kiriWorld_Raycast(world: *const kiriWorld, origin: *const f32, direction: *const f32, maxDistance: f32, sheet: *mut kiriSheet, hit: *mut kiriHit) -> kiriResult;

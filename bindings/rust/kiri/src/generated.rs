@@ -1707,7 +1707,7 @@ pub struct PinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
-    /// or 0. The target moves with this obstacle, which feels the pin ([`Obstacle::state`]) and
+    /// 0: none. The target moves with this obstacle, which feels the pin ([`Obstacle::state`]) and
     /// yields by its mass. If it is destroyed the target stays
     pub obstacle: Option<Obstacle>,
 }
@@ -1767,7 +1767,7 @@ pub struct PinState {
     pub rotation: [f32; 9],
     /// N, or 0
     pub break_force: f32,
-    /// that the target moves with, or 0
+    /// that the target moves with; 0: none
     pub obstacle: Option<Obstacle>,
 }
 
@@ -2511,7 +2511,7 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to `max_distance`;
+    /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
     /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
     /// sheet until 120 ticks pass without a ray.
     pub fn raycast(&self, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
@@ -2819,7 +2819,7 @@ impl Sheet {
         Ok(data)
     }
 
-    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to `max_distance`;
+    /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
     /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
     /// sheet until 120 ticks pass without a ray.
     pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
