@@ -130,7 +130,7 @@ PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
 # What is made from the header, and the programs of the manual, once.
 DESCRIBED_CHECK := $(if $(filter release,$(config)),described manual-programs)
 # Tests of the Makefile itself, and of what it installs: once.
-BUILD_CHECK := $(if $(filter release,$(config)),builds consumers)
+BUILD_CHECK := $(if $(filter release,$(config)),builds consumers exported)
 
 # What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
 # commands, the library on one with the lists of objects, and all that is linked on the library.
@@ -143,7 +143,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
-.PHONY: all run box2d jolt play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
+.PHONY: all run box2d jolt play python bindings described builds exported lib single example bench accuracy contact extremes gallery guide deps
 .PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -377,6 +377,9 @@ described: $(BUILD)/libkiri.so
 
 builds: lib $(RUN)
 	@sh tests/test_build.sh
+
+exported: $(RUN)
+	@mkdir -p $(BUILD)/exported && $(PYTHON) tests/test_glb.py $(RUN) $(BUILD)/exported
 
 # The folders of src are floors: a file includes from its own and from lower ones, never from higher ones. Circles inside a
 # folder are counted by the ratchet.

@@ -4,6 +4,7 @@
 #include "debug.h"
 #include "draw.h"
 #include "export.h"
+#include "glb.h"
 #include "image.h"
 #include "run_options.h"
 #include "scene.h"
@@ -45,6 +46,7 @@ typedef struct Film {
     Painter* painter;
     Image picture, tile, contactSheet;
     Apng moving; /* if options say so */
+    Glb model;   /* the same */
     Debug debug;
     int32_t pictures, moments;
 } Film;
@@ -58,6 +60,7 @@ static void Film_Destroy(Film* film)
     Image_Free(&film->tile);
     Image_Free(&film->contactSheet);
     Apng_Close(&film->moving);
+    Glb_Free(&film->model);
     Debug_Destroy(&film->debug);
 }
 
@@ -233,6 +236,10 @@ static bool Film_Tick(Film* film, const Scene* scene, const Options* options, in
     if (picture && (!WritePicture(film, options) || (options->film != NULL && !AddToMoving(film, options)))) {
         return false;
     }
+    if (picture && options->model != NULL && !Glb_Add(&film->model, scene->world, (float)(scene->tick - 1) / 60.0f)) {
+        fprintf(stderr, "no memory for %s\n", options->model);
+        return false;
+    }
     while (IsMoment(film, scene, ticks)) {
         AddMoment(film);
     }
@@ -348,6 +355,17 @@ static bool RunTicks(Scene* scene, SceneReplay* replay, Film* film, Times* times
     return true;
 }
 
+static bool WriteModel(Film* film, const Scene* scene, const char* path)
+{
+    FILE* file = fopen(path, "wb");
+    bool fine = file != NULL && Glb_Write(&film->model, scene->type->look.front, file);
+    fine = file != NULL && fclose(file) == 0 && fine;
+    if (!fine) {
+        fprintf(stderr, "cannot write %s\n", path);
+    }
+    return fine;
+}
+
 static bool FinishPictures(Film* film, const Options* options)
 {
     char path[1100];
@@ -406,6 +424,7 @@ static bool RunScene(Scene* scene, SceneReplay* replay, const Options* options)
         Times_Print(&times, scene);
     }
     fine = fine && (options->every == 0 || FinishPictures(&film, options));
+    fine = fine && (options->model == NULL || WriteModel(&film, scene, options->model));
     fine = fine && (options->drawing == NULL || WriteDrawing(scene, options->drawing));
     free(times.seconds[0]);
     Film_Destroy(&film);

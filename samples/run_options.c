@@ -13,6 +13,7 @@ void Options_PrintHelp(void)
            "  --output FOLDER       where the pictures go (build/pictures)\n"
            "  --film FILE           a moving picture of them too, an animated PNG\n"
            "  --drawing FILE        borders and cuts at the end: FOLD if the name ends so, else SVG\n"
+           "  --export FILE         the sheets in motion, a mesh for each picture: binary glTF 2.0 (.glb)\n"
            "  --record FILE         all calls of the library, to be replayed\n"
            "  --replay FILE         a recording instead of a scene's script\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
@@ -109,6 +110,9 @@ static bool ReadValue(const char* name, const char* value, Options* options)
     } else if (strcmp(name, "--drawing") == 0) {
         options->drawing = value;
         return true;
+    } else if (strcmp(name, "--export") == 0) {
+        options->model = value;
+        return true;
     } else if (strcmp(name, "--record") == 0) {
         options->record = value;
         return true;
@@ -154,8 +158,8 @@ bool Options_Read(int count, char** words, Options* options)
             return false;
         }
     }
-    if (options->film != NULL && options->every == 0) {
-        fprintf(stderr, "kiri-run: --film without pictures: --every 0\n");
+    if ((options->film != NULL || options->model != NULL) && options->every == 0) {
+        fprintf(stderr, "kiri-run: --film or --export without pictures: --every 0\n");
         return false;
     }
     if (options->record != NULL && options->replay != NULL) {

@@ -13,6 +13,7 @@ typedef struct Options {
     const char* data;
     const char* film;
     const char* drawing;
+    const char* model;
     const char *record, *replay; /* files of a recording, or null */
     DebugOptions debug;
     int32_t ticks, every, width, height, grid, controlFrames, budget;
