@@ -4,7 +4,8 @@
     python3 tests/ratchet.py --lower       makes each limit stricter whose figure is better
     python3 tests/ratchet.py --raise NAME  sets the named limits to the current figures, for a reason that the commit gives
     python3 tests/ratchet.py --list NAME   lists the places that a figure counts: short_single_caller, circles, plain_src,
-                                           plain_include, tests_with_inner_headers, longest_functions
+                                           plain_include, tests_with_inner_headers, unknown_names_guide,
+                                           longest_functions
 """
 
 import pathlib
@@ -119,6 +120,14 @@ def with_inner_headers(texts):
     return [path for path in texts if re.match(r"tests/test_\w+\.c", path) and includes(path, set())]
 
 
+def unknown_names(texts):
+    """Names of code in the guide to the source that are not in the code."""
+    guide = (repository / "src/README.md").read_text()
+    words = set(re.findall(r"\w+", "\n".join(texts)))
+    names = {word for code in re.findall(r"`([^`]+)`", guide) for word in re.findall(r"\b(?:kiri[A-Z]\w+|[A-Z][a-z]+[A-Z]\w+)", code)}
+    return sorted(names - words)
+
+
 def measure():
     """Name to figure; and name to the places that it counts."""
     src, include = read("src/*/*.c", "src/*/*.h", "src/*/*.cpp"), read("include/kiri/*.h")
@@ -141,9 +150,10 @@ def measure():
         folders.setdefault(unit.split("/")[1], set()).update(target.split("/")[1] for target in targets)
     folders = {folder: targets - {folder} for folder, targets in folders.items()}
     inner = with_inner_headers(tests)
+    unknown = unknown_names([*src.values(), *include.values(), *tests.values(), *read("samples/*.h").values()])
     plain = {"src": hard_lines(src), "include": hard_lines(include)}
     places = {"short_single_caller": short, "circles": in_circles(files), "tests_with_inner_headers": inner,
-              "plain_src": plain["src"][1], "plain_include": plain["include"][1],
+              "unknown_names_guide": unknown, "plain_src": plain["src"][1], "plain_include": plain["include"][1],
               "longest_functions": [f"{length} {path}: {name}"
                                     for path, name, _, length in sorted(functions, key=lambda f: -f[3])[:30]]}
     return {
@@ -163,6 +173,8 @@ def measure():
         "units_in_include_circles": len(places["circles"]),
         "folders_in_include_circles": len(in_circles(folders)),
         "tests_with_inner_headers": len(inner),
+        "lines_guide": (repository / "src/README.md").read_text().count("\n"),
+        "unknown_names_guide": len(unknown),
         "lines_header": sum(text.count("\n") for text in include.values()),
         "lines_c_tests": sum(text.count("\n") for path, text in tests.items() if path.endswith(".c")),
     }, places
