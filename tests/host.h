@@ -325,17 +325,20 @@ static inline kiriPin Host_Pin(Host* host, kiriSheet sheet, float u, float v, fl
     return pin;
 }
 
-/* A cut across all of the sheet, or a loop in it. */
+/* A cut across all of the sheet, a slit, or a loop in it. */
 static inline void Host_CutSomewhere(Host* host, kiriSheet sheet, uint32_t* seed)
 {
     float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
     float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
-    switch (Random(seed) % 3) {
+    switch (Random(seed) % 4) {
     case 0:
         Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
         break;
     case 1:
         Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
+        break;
+    case 2:
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.1f, v + 0.07f }, 2);
         break;
     default:
         Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);

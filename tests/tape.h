@@ -79,4 +79,17 @@ static inline kiriResult Tape_Play(Tape* replaying, const Tape* recorded)
     return result;
 }
 
+/* Replays the recording to its end in a new world, whose recording must be the same. Frees it. */
+static inline void Tape_PlayAll(Tape* recorded)
+{
+    Tape again;
+    Tape_Start(&again);
+    OK(Tape_Play(&again, recorded));
+    Tape_Stop(&again);
+    assert_int_equal(again.size, recorded->size);
+    assert_memory_equal(again.bytes, recorded->bytes, (size_t)recorded->size);
+    Tape_Free(&again);
+    Tape_Free(recorded);
+}
+
 #endif

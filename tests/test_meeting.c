@@ -341,37 +341,18 @@ static void MakeAcross(Layout* layout)
 }
 
 /* Ends that are too far to meet. */
-static void MakeFarT(Layout* layout)
-{
-    layout->least = 2.05;
-    layout->most = 4.0;
-    MakeT(layout);
-    layout->pieces = 2;
-}
-
-static void MakeFarLoop(Layout* layout)
-{
-    layout->least = 2.05;
-    layout->most = 4.0;
-    MakeLoop(layout);
-    layout->pieces = 1;
-}
-
-static void MakeFarComb(Layout* layout)
-{
-    layout->least = 2.05;
-    layout->most = 4.0;
-    MakeComb(layout);
-    layout->pieces = 2;
-}
-
-static void MakeFarTwice(Layout* layout)
-{
-    layout->least = 2.55;
-    layout->most = 4.0;
-    MakeTwice(layout);
-    layout->pieces = 3;
-}
+#define FAR(name, nearest, parts)                                                                                      \
+    static void MakeFar##name(Layout* layout)                                                                          \
+    {                                                                                                                  \
+        layout->least = nearest;                                                                                       \
+        layout->most = 4.0;                                                                                            \
+        Make##name(layout);                                                                                            \
+        layout->pieces = parts;                                                                                        \
+    }
+FAR(T, 2.05, 2)
+FAR(Loop, 2.05, 1)
+FAR(Comb, 2.05, 2)
+FAR(Twice, 2.55, 3)
 
 /* ---- Cutting ----------------------------------------------------------------------------------------------------- */
 

@@ -13,26 +13,6 @@ static kiriSheet AnySheet(const Host* host, uint32_t* seed)
     return Host_SheetAt(host, (int32_t)(Random(seed) % (uint32_t)Host_SheetCount(host)));
 }
 
-static void CutSheet(Host* host, uint32_t* seed)
-{
-    kiriSheet sheet = AnySheet(host, seed);
-    float from = (float)RandomBetween(seed, 0.05, 0.95), to = (float)RandomBetween(seed, 0.05, 0.95);
-    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
-    switch (Random(seed) % 4) {
-    case 0:
-        Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
-        break;
-    case 1:
-        Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
-        break;
-    case 2:
-        Host_Cut(host, sheet, (float[]){ u, v, u + 0.1f, v + 0.07f }, 2);
-        break;
-    default:
-        Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);
-    }
-}
-
 /* Takes a piece out of a sheet that has more than one. */
 static void TakePiece(Host* host, uint32_t* seed)
 {
@@ -94,7 +74,7 @@ static void Act(Host* host, uint32_t* seed, int32_t tick)
         return;
     }
     if (draw < 3) {
-        CutSheet(host, seed);
+        Host_CutSomewhere(host, AnySheet(host, seed), seed);
     } else if (draw < 8) {
         TakePiece(host, seed);
     } else if (draw == 8) {
