@@ -46,7 +46,8 @@ FUZZ ?= calls
 NEEDS_lib := gcc g++ libeigen3-dev
 NEEDS_run := $(NEEDS_lib) libosmesa6-dev libpng-dev
 NEEDS_box2d := $(NEEDS_run) libbox2d-dev
-NEEDS_play := $(NEEDS_box2d) libsdl2-dev
+NEEDS_play := $(NEEDS_box2d) libsdl2-dev libsdl2-ttf-dev
+WANTS_play := fonts-dejavu-core
 NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
@@ -60,7 +61,8 @@ NEEDS_manual := $(NEEDS_run)
 NEEDS_portable := $(NEEDS_lib)
 NEEDS_example := $(NEEDS_lib)
 # Without these, tests of bindings are left out, with a line that says so.
-WANTS_test := python3-cffi cmake pkg-config
+WANTS_test := python3-cffi cmake pkg-config $(WANTS_play)
+WANTS_gallery := $(WANTS_play)
 
 BUILD := build/$(config)
 ifndef EIGEN
@@ -514,7 +516,7 @@ $(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(BUILD)/samples/
 
 $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
 	@echo "  $@"
@@ -535,7 +537,7 @@ $(BUILD)/tests/test_box2d: $(BUILD)/tests/test_box2d.cpp.o $(BOX2D_LAWS) $(BUILD
 
 $(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lcmocka -lbox2d -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lcmocka -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
@@ -557,7 +559,7 @@ $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 
 $(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
-$(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa -lpng -lz
+$(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz
 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread

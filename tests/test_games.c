@@ -96,6 +96,40 @@ static void TestRaysMeetWhatIsSeenThere(void** state)
     }
 }
 
+/* Dark pixels of a text lie between the top of its capitals and the line below; what comes later covers it. */
+static void TestTextIsSeen(void** state)
+{
+    const Color white = { 1.0f, 1.0f, 1.0f, 1.0f }, black = { 0.0f, 0.0f, 0.0f, 1.0f };
+    const GameCamera camera = { { 0.0f, -1.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 45.0f, 0.0f };
+    Canvas* canvas = Canvas_Create(GAME_WIDTH, GAME_HEIGHT, 1);
+    Image image;
+    int32_t dark[3] = { 0, 0, 0 };
+    assert_non_null(canvas);
+    assert_true(Image_Create(&image, GAME_WIDTH, GAME_HEIGHT));
+    for (int32_t covered = 0; covered < 2; covered++) {
+        Canvas_Begin(canvas, &camera, white, white);
+        Canvas_AddText(canvas, 300.0f, 200.0f, 40.0f, 0.0f, black, "HIM");
+        if (covered) {
+            Canvas_AddRectangle(canvas, 0.0f, 0.0f, GAME_WIDTH, GAME_HEIGHT, white);
+        }
+        assert_true(Canvas_Finish(canvas, &image));
+        for (int32_t i = 0; i < GAME_WIDTH * GAME_HEIGHT; i++) {
+            int32_t x = i % GAME_WIDTH, y = i / GAME_WIDTH;
+            bool isInside = y >= 199 && y < 241 && x >= 300 && x < 420;
+            dark[covered ? 2 : isInside ? 0 : 1] += image.rgb[3 * i] < 128;
+        }
+    }
+    Image_Free(&image);
+    Canvas_Destroy(canvas);
+    if (dark[0] == 0) {
+        print_message("no font: text not tested\n");
+        skip();
+    }
+    assert_true(dark[0] > 500);
+    assert_int_equal(dark[1], 0);
+    assert_int_equal(dark[2], 0);
+}
+
 static void TestSoundsAreHeardAndEnd(void** state)
 {
     static float samples[2 * SOUND_RATE];
@@ -291,10 +325,15 @@ int main(int count, char** words)
 {
     snprintf(filePath, sizeof filePath, "%s.script", words[0]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestScriptKeepsEvents),       cmocka_unit_test(TestScriptRefusesNonsense),
-        cmocka_unit_test(TestRaysMeetWhatIsSeenThere), cmocka_unit_test(TestSoundsAreHeardAndEnd),
-        cmocka_unit_test(TestCurtainIsReplayed),       cmocka_unit_test(TestCurtainIsWon),
-        cmocka_unit_test(TestCallsAreRecorded),        cmocka_unit_test(TestCutsAreTakenBack),
+        cmocka_unit_test(TestScriptKeepsEvents),
+        cmocka_unit_test(TestScriptRefusesNonsense),
+        cmocka_unit_test(TestRaysMeetWhatIsSeenThere),
+        cmocka_unit_test(TestSoundsAreHeardAndEnd),
+        cmocka_unit_test(TestCurtainIsReplayed),
+        cmocka_unit_test(TestCurtainIsWon),
+        cmocka_unit_test(TestTextIsSeen),
+        cmocka_unit_test(TestCallsAreRecorded),
+        cmocka_unit_test(TestCutsAreTakenBack),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(filePath);

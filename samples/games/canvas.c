@@ -101,7 +101,7 @@ void Canvas_Begin(Canvas* canvas, const GameCamera* camera, Color top, Color bot
     canvas->top = top;
     canvas->bottom = bottom;
     memset(canvas->grounds, 0, sizeof canvas->grounds);
-    canvas->sheetCount = canvas->bodyCount = canvas->lineCount = canvas->overlay.count = 0;
+    canvas->sheetCount = canvas->bodyCount = canvas->lineCount = canvas->overlay.count = canvas->overlay.textCount = 0;
     canvas->failed = canvas->overlay.failed = false;
 }
 
@@ -478,21 +478,32 @@ static void DrawScene(Canvas* canvas, float scale)
 
 /* ---- The picture ------------------------------------------------------------------------------------------------ */
 
-static void DrawOverlay(const Overlay* overlay)
+static void DrawCorners(const Overlay* overlay, int32_t first, int32_t end)
 {
+    if (first < end) {
+        glEnableClientState(GL_COLOR_ARRAY);
+        glVertexPointer(2, GL_FLOAT, sizeof(OverlayCorner), &overlay->corners[0].x);
+        glColorPointer(4, GL_FLOAT, sizeof(OverlayCorner), &overlay->corners[0].color);
+        glDrawArrays(GL_TRIANGLES, first, end - first);
+        glDisableClientState(GL_COLOR_ARRAY);
+    }
+}
+
+static void DrawOverlay(const Overlay* overlay, float scale)
+{
+    int32_t drawn = 0;
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     glOrtho(0.0, GAME_WIDTH, GAME_HEIGHT, 0.0, -1.0, 1.0);
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     glDisable(GL_DEPTH_TEST);
-    if (overlay->count > 0) {
-        glEnableClientState(GL_COLOR_ARRAY);
-        glVertexPointer(2, GL_FLOAT, sizeof(OverlayCorner), &overlay->corners[0].x);
-        glColorPointer(4, GL_FLOAT, sizeof(OverlayCorner), &overlay->corners[0].color);
-        glDrawArrays(GL_TRIANGLES, 0, overlay->count);
-        glDisableClientState(GL_COLOR_ARRAY);
+    for (int32_t i = 0; i < overlay->textCount; i++) {
+        DrawCorners(overlay, drawn, overlay->texts[i].after);
+        drawn = overlay->texts[i].after;
+        OverlayText_Draw(&overlay->texts[i], scale);
     }
+    DrawCorners(overlay, drawn, overlay->count);
     glEnable(GL_DEPTH_TEST);
 }
 
@@ -531,7 +542,7 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
     glEnable(GL_BLEND);
     DrawGrounds(canvas);
     DrawScene(canvas, scale);
-    DrawOverlay(&canvas->overlay);
+    DrawOverlay(&canvas->overlay, scale);
     glDisable(GL_BLEND);
     glDisableClientState(GL_VERTEX_ARRAY);
     glFinish();

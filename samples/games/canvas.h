@@ -91,7 +91,7 @@ void Canvas_AddRectangle(Canvas* canvas, float left, float top, float width, flo
 void Canvas_AddStroke(Canvas* canvas, const float* points, int32_t count, float width, Color color);
 void Canvas_AddDisc(Canvas* canvas, float x, float y, float radius, Color color);
 
-/* Capitals are `size` units high; the text is copied. Align 0: it begins at x, 0.5: x is its middle, 1: its end. */
+/* Capitals are `size` units high; up to 95 bytes of UTF-8 are copied. Align 0: it begins at x, 0.5: x is its middle, 1: its end. */
 void Canvas_AddText(Canvas* canvas, float x, float y, float size, float align, Color color, const char* text);
 
 /* Draws all that was added into the image, which has the canvas's size. False without memory. */

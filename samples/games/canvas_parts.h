@@ -10,9 +10,20 @@ typedef struct OverlayCorner {
     Color color;
 } OverlayCorner;
 
+enum { OVERLAY_MOST_TEXTS = 32 };
+
+typedef struct OverlayText {
+    int32_t after; /* corners that it covers */
+    float x, y, size, align;
+    Color color;
+    char words[96];
+} OverlayText;
+
 typedef struct Overlay {
     OverlayCorner* corners;
     int32_t count, capacity;
+    OverlayText texts[OVERLAY_MOST_TEXTS];
+    int32_t textCount;
     bool failed; /* for want of memory */
 } Overlay;
 
@@ -20,6 +31,9 @@ void Overlay_AddQuad(Overlay* overlay, const float corners[8], Color color);
 void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color color);
 void Overlay_AddStroke(Overlay* overlay, const float from[2], const float to[2], float width, Color color);
 void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align, Color color, const char* text);
+
+/* Draws the text with the font into a picture with `scale` pixels a unit. */
+void OverlayText_Draw(const OverlayText* text, float scale);
 
 /* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */
 float GameCamera_GetAxes(const GameCamera* camera, float right[3], float up[3], float back[3]);

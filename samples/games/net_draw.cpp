@@ -209,7 +209,7 @@ void DrawHud(const NetGame& game, Canvas* canvas)
     Canvas_AddRectangle(canvas, 0.0f, 0.0f, GAME_WIDTH, 46.0f, Fade(INK, 0.82f));
     Canvas_AddText(canvas, 18.0f, 14.0f, 18.0f, 0.0f, SKY, game.level.name.c_str());
     const NetItem* par = NetGame_FindPar(game);
-    std::snprintf(text, sizeof text, "CUTS %d/%d   TIME %d.%d   SCORE %d", game.cuts,
+    std::snprintf(text, sizeof text, "cuts %d, par %d   time %d.%d s   score %d", game.cuts,
                   par != nullptr ? static_cast<int>(par->value[0]) : 0, game.ticks / GAME_RATE,
                   game.ticks % GAME_RATE / 6, NetGame_GetScore(game));
     Canvas_AddText(canvas, GAME_WIDTH - 18.0f, 14.0f, 18.0f, 1.0f, SKY, text);
@@ -220,8 +220,9 @@ void DrawHud(const NetGame& game, Canvas* canvas)
     }
     bool isWon = game.state == GAME_WON;
     Canvas_AddRectangle(canvas, 230.0f, 64.0f, 500.0f, 118.0f, Fade(isWon ? GOOD : BAD, 0.92f));
-    Canvas_AddText(canvas, 480.0f, 82.0f, 36.0f, 0.5f, SKY, isWon ? "WELL CUT" : "DROPPED");
-    std::snprintf(text, sizeof text, isWon ? "%d POINTS   N: NEXT   R: AGAIN" : "R: AGAIN", NetGame_GetScore(game));
+    Canvas_AddText(canvas, 480.0f, 82.0f, 36.0f, 0.5f, SKY, isWon ? "Well cut" : "Dropped");
+    std::snprintf(text, sizeof text, isWon ? "%d points    N: next level    R: again" : "R: again",
+                  NetGame_GetScore(game));
     Canvas_AddText(canvas, 480.0f, 142.0f, 16.0f, 0.5f, SKY, text);
 }
 

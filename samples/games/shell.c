@@ -63,7 +63,7 @@ static void PrintHelp(const GameType* const* games)
            "  --hash            prints the state hash at the end\n"
            "  --report          prints times and memory of each minute\n"
            "  --mute\n\n"
-           "In the window: R restart, N next level, P pause, S held: slow motion, M mute, Escape.\n",
+           "In the window: R again, N next level, P pause, Z undo, S held: slow motion, M sound, Escape: quit.\n",
            DEFAULT_TICKS, GAME_WIDTH, GAME_HEIGHT);
 }
 
@@ -243,7 +243,9 @@ static bool Draw(Shell* shell, float alpha)
     if (shell->wishes.pause) {
         const Color shade = { 0.0f, 0.0f, 0.0f, 0.35f }, white = { 1.0f, 1.0f, 1.0f, 1.0f };
         Canvas_AddRectangle(shell->canvas, 0.0f, 0.0f, GAME_WIDTH, GAME_HEIGHT, shade);
-        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT, 42.0f, 0.5f, white, "PAUSE");
+        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT, 42.0f, 0.5f, white, "Pause");
+        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT + 70.0f, 13.0f, 0.5f, white,
+                       "P: go on   R: again   N: next level   Z: undo   S: slow motion   M: sound   Esc: quit");
     }
     if (!Canvas_Finish(shell->canvas, &shell->image)) {
         fprintf(stderr, "no memory for a picture\n");
