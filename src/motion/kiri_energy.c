@@ -149,6 +149,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
     kiriVec3 gravity = kiriSystem_Gravity(system), mean = solver->momentum.velocityAfter;
     const kiriSearch* search = &solver->search;
     kiriEnergyStep* energy = &solver->energy;
+    bool hasWind = kiriSystem_HasWind(system);
     energy->kinetic = 0.0;
     energy->turning = 0.5 * kiriVec3_Dot(solver->momentum.spin, solver->momentum.angular);
     energy->moving = 0.5 * solver->momentum.mass * kiriVec3_Dot(mean, mean);
@@ -165,7 +166,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             lag = kiriMechanics_IsAffine(&system->mechanics) ? kiriMat3_Spin(&end->A, &end->history.turnLag) : lag;
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
                           kiriVec3_Dot(start->torque, kiriVec3_AddScaled(lag, solver->dt, end->spin)) +
-                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
+                          (hasWind ? kiriWind_Work(solver, system, f) : 0.0);
             kiriFrameData beside = *end;
             beside.velocity = kiriVec3_Sub(end->velocity, mean);
             energy->kinetic += kiriFrame_KineticEnergy(&beside, material);

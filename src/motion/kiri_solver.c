@@ -925,9 +925,11 @@ static void KeepFlow(const kiriSolver* solver, const kiriSystem* system)
         kiriSpan links = BodyOfMember(member)->links;
         for (int32_t k = first; sheet->plastics != NULL && k < first + links.count; ++k) {
             int32_t link = member->solver->bodies.links.data[links.first + k - first];
-            double strain[KIRI_MOST_STRAINS];
-            kiriElement_Measure(system, k, solver->poses.data, strain, NULL);
-            kiriStrain_EndFlow(&system->flows[k], strain, &sheet->plastics[link], sheet->strainOffsets[link].strain);
+            if (solver->search.now.flow > 0.0 || sheet->plastics[link].reach > 0.0) {
+                double strain[KIRI_MOST_STRAINS];
+                kiriElement_Measure(system, k, solver->poses.data, strain, NULL);
+                kiriStrain_EndFlow(&system->flows[k], strain, &sheet->plastics[link], sheet->strainOffsets[link].strain);
+            }
         }
         first += links.count;
     }

@@ -480,21 +480,13 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
-    double least = 1.0;
-    if (kiriElement_IsRigidLink(system, k)) {
-        least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
-    }
+    const double* start = solver->startStrain.data;
+    double least = kiriElement_IsRigidLink(system, k) ? kiriStrain_Damping(&start[KIRI_MOST_STRAINS * k]) : 1.0;
     for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
-        double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
+        double share = kiriStrain_Damping(&start[KIRI_MOST_STRAINS * corner->link[n]]);
         least = kiriMin(share, least);
     }
     return least;
-}
-
-static int32_t FirstMember(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    kiriElement_Members(system, k, solver->members.data);
-    return solver->members.data[0];
 }
 
 static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
@@ -598,9 +590,10 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         kiriElement_Stiffness(system, k, stiffness);
         MeasureElement(system, k, solver->start.data, solver->startStrain.data);
         solver->stopping.data[k] = 0;
-        int32_t first = FirstMember(solver, system, k);
-        double damping = (double)kiriSystem_MaterialOf(system, first)->flexDamping / dt * DampingShare(solver, system, k);
-        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+        kiriElement_Members(system, k, solver->members.data);
+        const kiriMaterial* material = kiriSystem_MaterialOf(system, solver->members.data[0]);
+        double damping = (double)material->flexDamping / dt * DampingShare(solver, system, k);
+        for (int e = 0, count = kiriElement_StrainCount(system, k); e < count; ++e) {
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
         if (kiriElement_IsRigidLink(system, k) && solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_FOLD] > 0.0) {
@@ -626,33 +619,17 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
 
-/* Returns the inertial force of a frame, times h'^2. */
-static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
-{
-    const kiriPrediction* prediction = &solver->predictions.data[f];
-    const kiriPose* pose = &solver->poses.data[f];
-    kiriFrameRow force = { 0 };
-    force.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x));
-    if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
-        force.by[1] = kiriVec3_Scale(-1.0, gradient.u);
-        force.by[2] = kiriVec3_Scale(-1.0, gradient.v);
-        force.by[3] = kiriVec3_Scale(-1.0, gradient.d);
-    } else {
-        force.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
-    }
-    return force;
-}
-
 static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     KIRI_ASSERT(f >= 0 && f < system->frameCount);
-    const kiriMassMoments* m = &solver->predictions.data[f].moments;
+    const kiriPrediction* prediction = &solver->predictions.data[f];
+    const kiriPose* pose = &solver->poses.data[f];
+    const kiriMassMoments* m = &prediction->moments;
     const double moments[4][4] = { { system->frames[f].mass, 0.0, 0.0, 0.0 },
                                    { 0.0, m->uu, m->uv, 0.0 },
                                    { 0.0, m->uv, m->vv, 0.0 },
                                    { 0.0, 0.0, 0.0, m->dd } };
-    kiriMat3 inertia = kiriPrediction_Inertia(&solver->predictions.data[f], &solver->poses.data[f].A);
+    kiriMat3 inertia = kiriPrediction_Inertia(prediction, &pose->A);
     double part = solver->stepping.part;
     double perTime = 1.0 / (part * part), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     for (int32_t r = 0; r < solver->size; ++r) {
@@ -668,8 +645,16 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
     }
     kiriMatrix_AddOwn(solver->matrix, f, block);
     double* force = &solver->force.data[solver->size * f];
-    kiriFrameRow inertiaForce = InertiaForce(solver, system, f);
-    kiriSolver_Reduce(solver, &inertiaForce, force);
+    kiriFrameRow row = { { kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x)) } };
+    if (kiriMechanics_IsAffine(&system->mechanics)) {
+        kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
+        row.by[1] = kiriVec3_Scale(-1.0, gradient.u);
+        row.by[2] = kiriVec3_Scale(-1.0, gradient.v);
+        row.by[3] = kiriVec3_Scale(-1.0, gradient.d);
+    } else {
+        row.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
+    }
+    kiriSolver_Reduce(solver, &row, force);
     for (int32_t n = 0; n < solver->size; ++n) {
         force[n] *= perTime;
     }
@@ -840,8 +825,8 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
         bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
-        springs[KIRI_NORMAL_GAP] += isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
         springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
+        springs[KIRI_NORMAL_GAP] += springs[KIRI_NORMAL_STOP];
     }
     kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }
@@ -960,8 +945,8 @@ static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
     return !solver->touch.isNear || search->solved < FREE_SYSTEMS || energy->potential <= most;
 }
 
-/* Takes a part of the Gauss-Newton step. Fails if the objective or the stored energy is too large. */
-static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
+/* Takes a part of the Gauss-Newton step, unless the objective or the stored energy is too large. */
+static void TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose* pose = &solver->poses.data[f];
@@ -976,12 +961,11 @@ static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
     solver->isAlong = true;
     kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->trial.data);
     solver->isAlong = false;
-    if (!(energy.objective <= solver->search.enough && IsAffordable(solver, &energy))) {
-        return false;
+    solver->search.isTaken = energy.objective <= solver->search.enough && IsAffordable(solver, &energy);
+    if (solver->search.isTaken) {
+        memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
+        solver->search.now = energy;
     }
-    memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
-    solver->search.now = energy;
-    return true;
 }
 
 /* Raises the limit for the first step to the objective of the free prediction, or MOST_RISE times the objective at its
@@ -1001,7 +985,8 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
    AllowPrediction. Returns false if the matrix has no factor. */
 static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
-    solver->search.now = kiriSolver_Assemble(solver, system);
+    kiriSearch* search = &solver->search;
+    search->now = kiriSolver_Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
         return false;
     }
@@ -1009,18 +994,18 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_MoveContacts(solver, system);
     kiriStitches_Solve(solver, system);
     StartSearch(solver, system);
-    bool isTaken = TryNewtonStep(solver, system);
-    if (!isTaken && solver->search.isFirst) {
+    TryNewtonStep(solver, system);
+    if (!search->isTaken && search->isFirst) {
         AllowPrediction(solver, system);
-        isTaken = TryNewtonStep(solver, system);
+        TryNewtonStep(solver, system);
     }
-    for (int halving = 0; !isTaken && halving < HALVINGS; ++halving) {
-        solver->search.scale *= 0.5;
-        isTaken = TryNewtonStep(solver, system);
+    for (int halving = 0; !search->isTaken && halving < HALVINGS; ++halving) {
+        search->scale *= 0.5;
+        TryNewtonStep(solver, system);
     }
-    solver->search.isFirst = false;
-    solver->search.solved += 1;
-    solver->solved += 1;
+    search->isFirst = false;
+    ++search->solved;
+    ++solver->solved;
     kiriStitches_TakeForces(solver, system);
     kiriSolver_ReviewContacts(solver, system);
     return true;
@@ -1060,13 +1045,19 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 }
 
 /* Lets links flow, from the poses of the elastic iteration on. At the poses before the step, a clamp that moves bends one
-   link by the whole step, and that link would take all of the flow. */
+   link by the whole step, and that link would take all of the flow. The objective changes only where one flows. */
 static void BeginFlow(kiriSolver* solver, const kiriSystem* system, int32_t done)
 {
     kiriSearch* search = &solver->search;
+    bool isFlowing = !search->isTaken || system->clampCount > 0; /* else the strains of links are known */
+    for (int32_t k = 0; !isFlowing && k < system->linkCount; ++k) {
+        isFlowing = kiriElement_Flow(system, k, &solver->nowStrain.data[KIRI_MOST_STRAINS * k], true) > 0.0;
+    }
     search->mayFlow = true;
-    search->now = kiriObjective_Evaluate(solver, system, solver->poses.data);
-    search->wanted = search->now.flow > 0.0 ? kiriMax(done + 1, search->wanted) : search->wanted;
+    if (isFlowing) {
+        search->now = kiriObjective_Evaluate(solver, system, solver->poses.data);
+        search->wanted = search->now.flow > 0.0 ? kiriMax(done + 1, search->wanted) : search->wanted;
+    }
 }
 
 /* Repeats the step by backward Euler. */
@@ -1323,7 +1314,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
         KIRI_EACH(const kiriContactStep, step, solver->contacts) {
             TakePointFromHolds(solver, system, step->members, step->memberCount, kiriContact_Force(solver, step));
         }
-        for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
+        for (int32_t f = 0, end = kiriSystem_HasWind(system) ? system->frameCount : 0; f < end; ++f) {
             if (system->frames[f].held) {
                 TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
             }

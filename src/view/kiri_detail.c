@@ -152,18 +152,18 @@ int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color)
     return color < KIRI_DETAIL_COLORS - 1 ? (edges + 3) / 4 : edges;
 }
 
-#define DETAIL_ROW(k) (at + 4 * (k))
+#define DETAIL_END(k, end) (at + 4 * (ptrdiff_t)edges[k].end)
 #define DETAIL_LANE(of, n)                                                                                             \
     kiriLanes_Join(kiriLanes_Join(of[0], n, n, of[1], n, n), 0, 2, kiriLanes_Join(of[2], n, n, of[3], n, n), 0, 2)
 
 /* Moves the ends of four edges towards each other, by half of the error in all if both are free. */
-static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiriLanes rest)
+static inline void RelaxFour(float* at, const kiriDetailEdge edges[4])
 {
     const kiriLanes least = kiriLanes_Splat(1e-30f), none = kiriLanes_Splat(0.0f);
     kiriLanes p[4], q[4], by[4];
     for (int k = 0; k < 4; ++k) {
-        p[k] = kiriLanes_Load(DETAIL_ROW(a[k]));
-        q[k] = kiriLanes_Load(DETAIL_ROW(b[k]));
+        p[k] = kiriLanes_Load(DETAIL_END(k, a));
+        q[k] = kiriLanes_Load(DETAIL_END(k, b));
         by[k] = kiriLanes_Sub(q[k], p[k]);
     }
     kiriLanes xy0 = kiriLanes_Join(by[0], 0, 1, by[1], 0, 1), xy1 = kiriLanes_Join(by[2], 0, 1, by[3], 0, 1);
@@ -172,6 +172,7 @@ static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiri
     kiriLanes square = kiriLanes_Add(kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y)), kiriLanes_Mul(z, z));
     kiriLanes length = kiriLanes_Sqrt(kiriLanes_Add(square, least));
     kiriLanes shares = kiriLanes_Add(kiriLanes_Add(free0, free1), kiriLanes_Splat(1e-12f));
+    kiriLanes rest = kiriLanes_Four(edges[0].rest, edges[1].rest, edges[2].rest, edges[3].rest);
     kiriLanes scale = kiriLanes_Div(kiriLanes_Sub(length, rest), kiriLanes_Mul(length, shares));
     kiriLanes cx = kiriLanes_Mul(scale, x), cy = kiriLanes_Mul(scale, y), cz = kiriLanes_Mul(scale, z);
     kiriLanes low = kiriLanes_Join(cx, 0, 1, cy, 0, 1), high = kiriLanes_Join(cx, 2, 3, cy, 2, 3);
@@ -181,8 +182,8 @@ static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiri
     by[2] = kiriLanes_Join(high, 0, 2, highZ, 0, 2);
     by[3] = kiriLanes_Join(high, 1, 3, highZ, 1, 3);
     for (int k = 0; k < 4; ++k) {
-        kiriLanes_Store(DETAIL_ROW(a[k]), kiriLanes_Add(p[k], kiriLanes_Mul(by[k], kiriLanes_Pick(p[k], 3, 3, 3, 3))));
-        kiriLanes_Store(DETAIL_ROW(b[k]), kiriLanes_Sub(q[k], kiriLanes_Mul(by[k], kiriLanes_Pick(q[k], 3, 3, 3, 3))));
+        kiriLanes_Store(DETAIL_END(k, a), kiriLanes_Add(p[k], kiriLanes_Mul(by[k], kiriLanes_Pick(p[k], 3, 3, 3, 3))));
+        kiriLanes_Store(DETAIL_END(k, b), kiriLanes_Sub(q[k], kiriLanes_Mul(by[k], kiriLanes_Pick(q[k], 3, 3, 3, 3))));
     }
 }
 
@@ -193,17 +194,15 @@ void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t 
     const int32_t count = detail->colorStart[color + 1] - detail->colorStart[color];
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= kiriDetail_GroupCount(detail, color));
     for (int32_t group = begin; group < end; ++group) {
-        int32_t first = each * group, a[4], b[4], real = kiriMin(each, count - first);
-        float rest[4] = { 0 };
-        for (int32_t k = 0; k < 4; ++k) {
-            a[k] = k < real ? edges[first + k].a : vertices;
-            b[k] = k < real ? edges[first + k].b : vertices + 1;
-            rest[k] = k < real ? edges[first + k].rest : 0.0f;
-        }
+        const kiriDetailEdge *four = &edges[each * group], none = { vertices, vertices + 1, 0.0f };
+        int32_t real = kiriMin(each, count - each * group);
+        kiriDetailEdge padded[4] = { none, none, none, none };
         if (real < 4) {
             memset(detail->moving.data + 4 * vertices, 0, 8 * sizeof(float));
+            memcpy(padded, four, sizeof(*four) * (size_t)real);
+            four = padded;
         }
-        RelaxFour(detail->moving.data, a, b, kiriLanes_Load(rest));
+        RelaxFour(detail->moving.data, four);
     }
 }
 
