@@ -155,7 +155,7 @@ PATH=$bin run_make CC=cc CXX=c++ EIGEN="$folder/eigen" packages-run
 
 # What is only wanted stops nobody, and asks nobody for a password.
 mkdir "$folder/headers/box2d" "$folder/headers/SDL2"
-touch "$folder/headers/box2d/box2d.h" "$folder/headers/SDL2/SDL.h" "$folder/headers/cmocka.h"
+touch "$folder/headers/box2d/box2d.h" "$folder/headers/SDL2/SDL.h" "$folder/headers/SDL2/SDL_ttf.h" "$folder/headers/cmocka.h"
 stub id 'echo 1000'
 stub sudo 'exit 1'
 PATH=$bin run_make CC=cc CXX=c++ EIGEN="$folder/eigen" PYTHON=none packages-test

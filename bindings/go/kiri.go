@@ -213,7 +213,7 @@ const (
 	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.
 	ModelLinks Model = 0
 	// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
-	// takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.
+	// takes about three times as long. From 1e8 Pa on use 8 `iterations`.
 	ModelAffine Model = 1
 	// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
 	// thinner the sheet, the less it bends; the manual has figures (accuracy).
@@ -2478,7 +2478,7 @@ func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) 
 	return nil
 }
 
-// It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
 func (b Blade) End() error {
 	if err := b.World.check(); err != nil {
 		return err

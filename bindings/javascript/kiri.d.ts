@@ -135,7 +135,7 @@ export enum Model {
     /** Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     Links = 0,
     /** Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
-     *  tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`. */
+     *  tick takes about three times as long. From 1e8 Pa on use 8 `iterations`. */
     Affine = 1,
     /** Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
      *  thinner the sheet, the less it bends; the manual has figures (accuracy). */
@@ -1624,7 +1624,7 @@ export class Blade {
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
      *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
     moveRay(origin: ArrayLike<number>, direction: ArrayLike<number>, length: number): ResultCode;
-    /** It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends. */
+    /** Ends the blade; its id is stale. Its cuts stay, and end where the blade is. */
     end(): ResultCode;
 }
 

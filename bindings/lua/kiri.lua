@@ -1449,7 +1449,7 @@ function Blade:moveRay(origin, direction, length)
     return result == 1
 end
 
---- It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+--- Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
 function Blade:finish()
     local world = self.world
     local result = C.kiriBlade_End(world.c, self.id)

@@ -337,7 +337,7 @@ enum kiriModel {
     /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     KIRI_MODEL_LINKS = 0,
     /* Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
-       takes five to seven times as long. From 1e8 Pa on use 8 `iterations`. */
+       takes about three times as long. From 1e8 Pa on use 8 `iterations`. */
     KIRI_MODEL_AFFINE = 1,
     /* Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
        thinner the sheet, the less it bends; the manual has figures (accuracy). */
@@ -747,7 +747,7 @@ KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const 
 KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
                                       const float direction[3], float length);
 
-/* It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends. */
+/* Ends the blade; its id is stale. Its cuts stay, and end where the blade is. */
 KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 
 /* ---- Frame ------------------------------------------------------------------------------------------------------ */

@@ -1570,7 +1570,7 @@ namespace Kiri
             World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length));
         }
 
-        /// <summary>It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.</summary>
+        /// <summary>Ends the blade; its id is stale. Its cuts stay, and end where the blade is.</summary>
         public void End()
         {
             World.Check(Native.kiriBlade_End(World.Handle, Id));

@@ -440,7 +440,7 @@ namespace Kiri
         /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.</summary>
         Links = 0,
         /// <summary>Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
-        /// tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.</summary>
+        /// tick takes about three times as long. From 1e8 Pa on use 8 `iterations`.</summary>
         Affine = 1,
         /// <summary>Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame.
         /// The thinner the sheet, the less it bends; the manual has figures (accuracy).</summary>

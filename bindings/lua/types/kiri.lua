@@ -1093,7 +1093,7 @@ function Blade:moveEdge(from, to) end
 ---@return boolean # work is left for later ticks
 function Blade:moveRay(origin, direction, length) end
 
---- It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+--- Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
 ---@return boolean # work is left for later ticks
 function Blade:finish() end
 

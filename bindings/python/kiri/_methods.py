@@ -597,7 +597,7 @@ class Blade:
         return self.world.call('kiriBlade_MoveRay', self.id, core.vector(origin, 3), core.vector(direction, 3), length)
 
     def end(self) -> int:
-        """It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends."""
+        """Ends the blade; its id is stale. Its cuts stay, and end where the blade is."""
         return self.world.call('kiriBlade_End', self.id)
 
 

@@ -108,7 +108,7 @@ pub const KIRI_QUALITY_COUNT: i32 = 3;
 /// neighbours.
 pub const KIRI_MODEL_LINKS: i32 = 0;
 /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-/// unknowns a frame: a tick takes five to seven times as long. From 1e8 Pa on use 8 \`iterations\`.
+/// unknowns a frame: a tick takes about three times as long. From 1e8 Pa on use 8 \`iterations\`.
 pub const KIRI_MODEL_AFFINE: i32 = 1;
 /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
 /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures (accuracy).
@@ -1336,7 +1336,7 @@ unsafe extern "C" {
     /// ray that a camera casts; each end goes straight. The first call only says where it begins.
     /// An end inside cuts along its own way.
     pub fn kiriBlade_MoveRay(world: *mut kiriWorld, blade: kiriBlade, origin: *const f32, direction: *const f32, length: f32) -> kiriResult;
-    /// It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+    /// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;

@@ -403,7 +403,7 @@ pub enum Model {
     /// neighbours.
     Links = 0,
     /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-    /// unknowns a frame: a tick takes five to seven times as long. From 1e8 Pa on use 8 iterations.
+    /// unknowns a frame: a tick takes about three times as long. From 1e8 Pa on use 8 iterations.
     Affine = 1,
     /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
     /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures
@@ -3293,7 +3293,7 @@ impl Blade {
         Ok(())
     }
 
-    /// It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
+    /// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world)?;
