@@ -128,6 +128,25 @@ static void StrongBendsAreLimited(void** state)
     }
 }
 
+/* Frames that turn past back to back: patches sag to neither side there, so the visible surface does not jump. */
+static void BackToBackIsSteady(void** state)
+{
+    static const double angles[2] = { 3.11, 3.17 };
+    double sags[2][2 * (LENGTHWISE + 1)];
+    for (int k = 0; k < 2; ++k) {
+        Looks flat = LookAtArc(angles[k], 0, KIRI_SKINNING_LINEAR), bent = LookAtArc(angles[k], 0, KIRI_SKINNING_SMOOTH);
+        for (int i = 0; i <= LENGTHWISE; ++i) {
+            sags[k][2 * i] = bent.row[3 * i] - flat.row[3 * i];
+            sags[k][2 * i + 1] = bent.row[3 * i + 2] - flat.row[3 * i + 2];
+        }
+    }
+    for (int i = 0; i < 2 * (LENGTHWISE + 1); ++i) {
+        if (!(fabs(sags[1][i] - sags[0][i]) < 3e-3)) {
+            fail_msg("coordinate %d jumps by %g m", i, sags[1][i] - sags[0][i]);
+        }
+    }
+}
+
 /* ---- Lips ---- */
 
 enum { SQUARES = 120 };
@@ -230,6 +249,7 @@ int main(void)
         cmocka_unit_test(EasedWeightsLeaveNoCrease),
         cmocka_unit_test(SmoothSurfacesAreRound),
         cmocka_unit_test(StrongBendsAreLimited),
+        cmocka_unit_test(BackToBackIsSteady),
         cmocka_unit_test(SlitsOpenFromTheirEnd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

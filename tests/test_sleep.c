@@ -279,7 +279,37 @@ static void TestCreepingFloorWakes(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Drift ---- */
+/* A cloth that falls on its edge crumples. It lies on the floor, and not in it. */
+static void TestCrumpledSheetSleeps(void** state)
+{
+    for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; ++skinning) {
+        START_HOST(host);
+        kiriObstacleDef floor = DefaultObstacle();
+        kiriSheetDef def = DefaultSheet();
+        const float up[3] = { 0.0f, 0.02f, sqrtf(1.0f - 0.0004f) };
+        double lowest = 0.0;
+        int tick = 0;
+        floor.type = KIRI_OBSTACLE_PLANE;
+        World_AddObstacle(host.world, &floor);
+        def.gridResolution = 32;
+        def.frameCount = def.maxFrames = 25;
+        def.skinning = skinning;
+        def.position[2] = 0.05f;
+        memcpy(def.axisV, up, sizeof(up));
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 32, 32);
+        for (; tick < 480 && IsAwake(&host, sheet); ++tick) {
+            Tick(&host);
+            kiriMesh mesh = Host_Mesh(&host, sheet);
+            for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+                lowest = fmin(mesh.positions[3 * v + 2], lowest);
+            }
+        }
+        if (!(tick < 480 && lowest > -6e-3)) {
+            fail_msg("skinning %d: awake for %d ticks, %g m deep", skinning, tick, lowest);
+        }
+        Host_Stop(&host);
+    }
+}
 
 int main(void)
 {
@@ -287,7 +317,7 @@ int main(void)
         cmocka_unit_test(TestHangingSheetSleeps), cmocka_unit_test(TestCutWakes),
         cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
         cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
-cmocka_unit_test(TestWaitingCutDoesNotWake),
+        cmocka_unit_test(TestWaitingCutDoesNotWake), cmocka_unit_test(TestCrumpledSheetSleeps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

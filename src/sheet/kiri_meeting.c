@@ -73,8 +73,7 @@ static kiriVec3 WayOf(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 veloc
     kiriVec3 relative = kiriVec3_Sub(velocity, kiriObstacle_VelocityAt(meeting->obstacle, point));
     kiriVec3 way = kiriVec3_Scale(2.0 * search->dt, kiriVec3_AddScaled(relative, search->dt, search->gravity));
     if (meeting->sheet->settings.mechanics.planar) {
-        kiriVec3 d = meeting->sheet->settings.mechanics.axes.d;
-        way = kiriVec3_Across(way, d);
+        way = kiriVec3_Across(way, meeting->sheet->settings.mechanics.axes.d);
     }
     return way;
 }
@@ -287,10 +286,9 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
 
 static bool TouchVertices(const kiriMeeting* meeting)
 {
-    const kiriObstacleSearch* search = meeting->search;
     bool ok = true;
     ChooseVertices(meeting);
-    KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, search->chosen) {
+    KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, meeting->search->chosen) {
         kiriTouch touch;
         if (TouchVertex(meeting, chosen->vertex, &touch)) {
             ok = kiriTouches_Add(meeting->sheet, &touch);
@@ -847,13 +845,12 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             1,
                             sqrt(sheet->settings.friction * obstacle->friction),
                             yield,
-                            (obstacle->shape.type == KIRI_OBSTACLE_PLANE && !sheet->probes.folds) ||
+                            (obstacle->shape.type == KIRI_OBSTACLE_PLANE && !kiriPieces_AnyFolds(sheet)) ||
                                 kiriTouches_CanYield(sheet, yield) };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
-    double square = sheet->mesh.step * sheet->mesh.squares.side;
-    meeting.squares = PatchSide(sheet, square);
+    meeting.square = sheet->mesh.step * sheet->mesh.squares.side;
+    meeting.squares = PatchSide(sheet, meeting.square);
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
-    meeting.square = square;
     meeting.reach =
         kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + (1.0 + NEARBY) * meeting.gap;
     if (sheet->settings.mechanics.planar) {

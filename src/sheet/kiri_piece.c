@@ -207,6 +207,29 @@ int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
     return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
+bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece)
+{
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    bool folds = false;
+    KIRI_EACH_INDEX(k, frames) {
+        sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
+    }
+    KIRI_EACH_INDEX_WHILE(!folds, k, frames) {
+        folds = kiriVec3_Dot(sum, sheet->frames.data[frames.data[k]].A.d) < 0.3 * kiriVec3_Length(sum);
+    }
+    return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]);
+}
+
+bool kiriPieces_AnyFolds(const kiriSheetData* sheet)
+{
+    bool any = false;
+    KIRI_EACH_INDEX_WHILE(!any, p, sheet->layout.pieces) {
+        any = kiriPiece_Folds(sheet, p);
+    }
+    return any;
+}
+
 /* Returns the frame with the largest weight at the corners. During an update regions may be incomplete. */
 static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
 {

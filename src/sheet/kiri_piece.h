@@ -11,6 +11,10 @@ bool kiriPieces_Stage(kiriSheetData* sheet);
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
 
+/* Returns true if the piece, or any piece, is awake and has a director more than 72 degrees off the mean of all. */
+bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece);
+bool kiriPieces_AnyFolds(const kiriSheetData* sheet);
+
 /* Returns true if a piece is gone, see kiriPiece.isGone. */
 bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 

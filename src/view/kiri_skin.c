@@ -36,11 +36,10 @@ void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int3
 /* Adds how the director of another frame, s away, leans seen from a frame. */
 static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
 {
-    /* The angle over its sine, from its cosine: Pade's [4/4] of the arc tangent of the half-angle, 0.7 % off at 120
-       degrees. At most 8, for frames back to back. */
-    double lower = kiriMax(1.0 + kiriVec3_Dot(carrier->d, other), 0.1), x = (2.0 - lower) / lower;
-    double angle = (945.0 + x * (735.0 + 64.0 * x)) / (945.0 + x * (1050.0 + 225.0 * x));
-    double k = -weight * (angle * (1.0 + x));
+    /* The angle over its sine, from its cosine: Pade's [2/2] of the arc tangent of the half-angle, 0.8 % off at a right
+       angle. Beyond it the factor stays: frames back to back do not lean, so the surface does not jump as they turn past. */
+    double lower = kiriMax(1.0 + kiriVec3_Dot(carrier->d, other), 1.0), x = (2.0 - lower) / lower;
+    double k = -weight * (1.0 + x) * (15.0 + 4.0 * x) / (15.0 + 9.0 * x);
     double tu = k * kiriVec3_Dot(carrier->u, other), tv = k * kiriVec3_Dot(carrier->v, other);
     bend->uu += weight * s.x * s.x;
     bend->uv += weight * s.x * s.y;

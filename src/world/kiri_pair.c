@@ -18,11 +18,6 @@ static bool TakesPart(const kiriSheetData* sheet)
     return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
 }
 
-static bool MayFold(const kiriSheetData* sheet)
-{
-    return sheet->settings.selfContact && !sheet->settings.mechanics.planar;
-}
-
 /* Returns the piece of a body, or null if it no longer exists. */
 static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
 {
@@ -898,7 +893,6 @@ static bool LookAtAll(kiriWorld* world, double dt)
    shorter: sides are not stored (Volino, Magnenat-Thalmann, Resolving surface collisions through intersection contour
    minimization, 2006). */
 
-#define FOLDED 0.3       /* cosine: if the directors of all frames are nearer to their mean the piece does not fold */
 #define GRAZING 0.2      /* minimum sine of the angle between an edge and a triangle that it crosses */
 #define LEAST_TURN 0.2     /* change of the length of the line per length of a move: less gives no direction */
 #define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
@@ -934,20 +928,6 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
     }
     double most = kiriMin(sheet->settings.foldThickness, 0.5 * OPEN * rest);
     return most * kiriClamp(2.0 * (1.0 - shared / MOST_SHARED), 0.0, 1.0);
-}
-
-static bool Folds(const kiriSheetData* sheet, int32_t piece)
-{
-    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    bool folds = false;
-    KIRI_EACH_INDEX(k, frames) {
-        sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
-    }
-    KIRI_EACH_INDEX_WHILE(!folds, k, frames) {
-        folds = kiriVec3_Dot(sum, sheet->frames.data[frames.data[k]].A.d) < FOLDED * kiriVec3_Length(sum);
-    }
-    return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]) && !sheet->layout.pieces.data[piece].isGone;
 }
 
 /* A search in a piece that folds. */
@@ -1191,10 +1171,7 @@ static bool TouchFold(kiriWorld* world, kiriSheetData* sheet, int32_t piece, dou
 static bool BeginFolds(kiriSheetData* sheet)
 {
     bool folded = sheet->probes.folds;
-    sheet->probes.folds = false;
-    for (int32_t p = 0; MayFold(sheet) && p < sheet->layout.pieces.count; ++p) {
-        sheet->probes.folds = sheet->probes.folds || Folds(sheet, p);
-    }
+    sheet->probes.folds = sheet->settings.selfContact && kiriPieces_AnyFolds(sheet);
     sheet->probes.isFresh &= folded || TakesPart(sheet);
     if (!sheet->probes.folds) {
         return true;
@@ -1217,7 +1194,7 @@ static bool TouchFolds(kiriWorld* world, double dt)
         if (!sheet->rest.asleep) {
             ok = BeginFolds(sheet);
             for (int32_t p = 0; ok && sheet->probes.folds && p < sheet->layout.pieces.count; ++p) {
-                ok = !Folds(sheet, p) || TouchFold(world, sheet, p, dt);
+                ok = !kiriPiece_Folds(sheet, p) || TouchFold(world, sheet, p, dt);
             }
         }
     }
