@@ -26,6 +26,11 @@ static FuzzIds* Blades(Fuzz* fuzz)
     return &fuzz->blades;
 }
 
+static FuzzIds* Seams(Fuzz* fuzz)
+{
+    return &fuzz->seams;
+}
+
 /* The pointer, or null where the bit says so. */
 #define OR_NULL(bit, pointer) ((act->nulls >> (bit)&1u) != 0 ? NULL : (pointer))
 
@@ -474,6 +479,60 @@ CALL(GetObstacle)
     return result;
 }
 
+/* ---- Folds and seams ---- */
+
+CALL(CreateFoldedSheet)
+{
+    return kiriCreateFoldedSheet(world, OR_NULL(0, &act->def.sheet), OR_NULL(1, act->folds), act->foldCount,
+                                 OR_NULL(2, &act->said.id));
+}
+
+CALL(AddFold)
+{
+    return kiriSheet_AddFold(world, act->sheet, OR_NULL(0, &act->folds[0]), OR_NULL(1, &act->said.count));
+}
+
+CALL(SetFold)
+{
+    return kiriSheet_SetFold(world, act->sheet, act->numbers[0], act->scalar, act->vectors[0][0]);
+}
+
+CALL(GetFold)
+{
+    kiriFoldState state;
+    memset(&state, 0, sizeof(state));
+    kiriResult result = kiriSheet_GetFold(world, act->sheet, act->numbers[0], OR_NULL(0, &state));
+    SAY(result, state);
+    FUZZ_CHECK(result < 0 || (isfinite(state.angle) && state.length >= 0.0), "a fold has %g rad", state.angle);
+    return result;
+}
+
+CALL(CreateSeam)
+{
+    return kiriCreateSeam(world, OR_NULL(0, &act->def.seam), OR_NULL(1, &act->said.id));
+}
+
+CALL(DestroySeam)
+{
+    return kiriDestroySeam(world, act->seam);
+}
+
+CALL(SetHinge)
+{
+    return kiriSeam_SetHinge(world, act->seam, act->scalar, act->vectors[0][0]);
+}
+
+CALL(GetStitch)
+{
+    kiriStitch stitch;
+    memset(&stitch, 0, sizeof(stitch));
+    kiriResult result = kiriSeam_GetStitch(world, act->seam, act->numbers[0], OR_NULL(0, &stitch));
+    SAY(result, stitch);
+    FUZZ_CHECK(result < 0 || (AllFinite(stitch.position, 3) && AllFinite(stitch.force, 3) && stitch.gap >= 0.0f),
+               "a stitch is %g apart", stitch.gap);
+    return result;
+}
+
 enum { ADDS = FUZZ_ADDS, READS = FUZZ_READS, DESTROYS = FUZZ_DESTROYS, TICKS = FUZZ_TICKS, STIRS = FUZZ_STIRS };
 
 const FuzzCall fuzzCalls[] = {
@@ -545,6 +604,16 @@ const FuzzCall fuzzCalls[] = {
     { "SetSurfaceVelocity", CallSetSurfaceVelocity, "oV", 0, NULL },
     { "SetMass", CallSetMass, "oVVVx", 0, NULL },
     { "GetState", CallGetObstacle, "o", READS, NULL },
+    { "CreateSheet", CallCreateFoldedSheet, "SL", FUZZ_MAKES_SHEET | ADDS | STIRS, Sheets },
+    { "AddFold", CallAddFold, "sL", STIRS, NULL },
+    { "AddFold", CallAddFold, "sL", STIRS, NULL },
+    { "SetFold", CallSetFold, "snVx", STIRS, NULL },
+    { "GetFold", CallGetFold, "sn", READS, NULL },
+    { "CreateSeam", CallCreateSeam, "sE", ADDS | STIRS, Seams },
+    { "CreateSeam", CallCreateSeam, "sE", ADDS | STIRS, Seams },
+    { "DestroySeam", CallDestroySeam, "m", 0, NULL },
+    { "SetHinge", CallSetHinge, "mVx", STIRS, NULL },
+    { "GetStitch", CallGetStitch, "mn", READS, NULL },
 };
 
 const int32_t fuzzCallCount = sizeof(fuzzCalls) / sizeof(fuzzCalls[0]);

@@ -388,6 +388,48 @@ static void ReadSheet(Fuzz* fuzz, FuzzAct* act, kiriSheetDef* def)
     def->snapDistance = (kind & 192) == 192 ? FuzzBytes_Float(bytes, 0.0f, 0.05f) : 0.0f;
 }
 
+/* ---- Folds and seams ---- */
+
+static void ReadFolds(Fuzz* fuzz, FuzzAct* act)
+{
+    act->foldCount = 1 + FuzzBytes_Below(&fuzz->bytes, FUZZ_FOLDS);
+    for (int32_t i = 0; i < act->foldCount; ++i) {
+        kiriFold* fold = &act->folds[i];
+        ReadRest(fuzz, act->sheet, fold->from);
+        ReadRest(fuzz, act->sheet, fold->to);
+        fold->stiffness = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.01f);
+        fold->restAngle = FuzzBytes_Float(&fuzz->bytes, -3.14f, 3.14f);
+        fold->yieldMoment = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.01f);
+    }
+}
+
+/* A line in both sheets. */
+static void ReadSeam(Fuzz* fuzz, FuzzAct* act, kiriSeamDef* def)
+{
+    const kiriSheet sheets[2] = { act->sheet, ReadId(fuzz, &fuzz->sheets) };
+    int32_t counts[2];
+    kiriDefaultSeamDef(def);
+    for (int k = 0; k < 2; ++k) {
+        counts[k] = FuzzBytes_Int(&fuzz->bytes, 2, 4);
+        counts[k] = counts[k] > FUZZ_POINTS ? FUZZ_POINTS : counts[k];
+        for (int32_t i = 0; i < counts[k]; ++i) {
+            ReadRest(fuzz, sheets[k], &act->lines[k][2 * i]);
+        }
+    }
+    def->sheetA = sheets[0];
+    def->sheetB = sheets[1];
+    def->lineA = act->lines[0];
+    def->lineB = act->lines[1];
+    def->countA = counts[0];
+    def->countB = counts[1];
+    def->stitches = FuzzBytes_Int(&fuzz->bytes, 0, 20);
+    def->stitches = def->stitches > 64 && def->stitches <= 4096 ? 64 : def->stitches;
+    int32_t kind = FuzzBytes_Below(&fuzz->bytes, 8);
+    def->stiffness = (kind & 1) != 0 ? FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.1f) : 0.0f;
+    def->restAngle = (kind & 2) != 0 ? FuzzBytes_Float(&fuzz->bytes, -3.14f, 3.14f) : 0.0f;
+    def->breakForce = (kind & 4) != 0 ? FuzzBytes_Float(&fuzz->bytes, 0.0f, 10.0f) : 0.0f;
+}
+
 /* ---- All ---- */
 
 static void ReadDef(Fuzz* fuzz, FuzzAct* act, char need)
@@ -413,6 +455,9 @@ static void ReadDef(Fuzz* fuzz, FuzzAct* act, char need)
         break;
     case 'T':
         ReadSettings(fuzz, act->sheet, &act->def.settings);
+        break;
+    case 'E':
+        ReadSeam(fuzz, act, &act->def.seam);
         break;
     default:
         ReadContacts(fuzz, act);
@@ -448,6 +493,12 @@ static void ReadOne(Fuzz* fuzz, FuzzAct* act, char need)
         break;
     case 'b':
         act->blade = ReadId(fuzz, &fuzz->blades);
+        break;
+    case 'm':
+        act->seam = ReadId(fuzz, &fuzz->seams);
+        break;
+    case 'L':
+        ReadFolds(fuzz, act);
         break;
     case 'v':
         ReadPlace(fuzz, act->sheet, act->vectors[act->vectorCount++]);

@@ -323,7 +323,8 @@ static bool IsTooMuch(const Fuzz* fuzz, const FuzzCall* call)
 {
     const kiriWorld* world = fuzz->hosts[0].world;
     bool isFull =
-        fuzz->pins.count >= FUZZ_IDS || world->obstacles.count >= 6 || world->blades.count >= 4 || fuzz->sheetsMade > 3;
+        fuzz->pins.count >= FUZZ_IDS || world->obstacles.count >= 6 || world->blades.count >= 4 || world->seams.count >= 4 ||
+        fuzz->sheetsMade > 3;
     return (call->flags & FUZZ_ADDS) != 0 && isFull;
 }
 

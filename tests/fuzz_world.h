@@ -15,7 +15,7 @@ typedef enum FuzzTwin {
     FUZZ_TWINS
 } FuzzTwin;
 
-enum { FUZZ_POINTS = 12, FUZZ_IDS = 24, FUZZ_SQUARES = 8 };
+enum { FUZZ_POINTS = 12, FUZZ_IDS = 24, FUZZ_SQUARES = 8, FUZZ_FOLDS = 4 };
 
 /* Ids of a kind that were seen, stale ones too. */
 typedef struct FuzzIds {
@@ -31,6 +31,7 @@ typedef struct FuzzAct {
     kiriCut cut;
     kiriObstacle obstacle;
     kiriBlade blade;
+    kiriSeam seam;
     uint32_t nulls; /* bits: pointers that are null */
     float vectors[4][3], rests[3][2], rotation[9], scalar;
     int32_t numbers[3], vectorCount, restCount, numberCount;
@@ -46,7 +47,11 @@ typedef struct FuzzAct {
         kiriSheetDef sheet;
         kiriSheetSettings settings;
         kiriContact contacts[FUZZ_POINTS];
+        kiriSeamDef seam;
     } def;
+    kiriFold folds[FUZZ_FOLDS];
+    int32_t foldCount;
+    float lines[2][2 * FUZZ_POINTS];
     float outline[2 * FUZZ_POINTS];
     float positions[2 * (FUZZ_SQUARES + 1) * (FUZZ_SQUARES + 1) + 4 * (FUZZ_SQUARES + 1)];
     int32_t indices[6 * FUZZ_SQUARES * FUZZ_SQUARES];
@@ -66,7 +71,7 @@ typedef struct Fuzz {
     Host hosts[2];
     int32_t hostCount, sheetsMade, ticks;
     float scale; /* m: of the sheets */
-    FuzzIds sheets, frames, pins, cuts, obstacles, blades;
+    FuzzIds sheets, frames, pins, cuts, obstacles, blades, seams;
     double area, mass, slack;  /* of all sheets together; the latter by itself */
     double energy, energySize; /* J: the most that there can be; and of what size its parts were */
     bool isStirred;            /* something gave energy that nobody counts */
@@ -98,8 +103,8 @@ typedef struct FuzzCall {
 extern const FuzzCall fuzzCalls[];
 extern const int32_t fuzzCallCount;
 
-/* s f p c o b: ids. v: a place in the world, V: a vector. r: a rest point. R: a rotation. x: a number. n: a small whole
-   one. P: rest points, F: frames. B W I O S T C: budget, wind, pin, obstacle, sheet, settings, contacts. */
+/* s f p c o b m: ids, m of a seam. v: a place in the world, V: a vector. r: a rest point. R: a rotation. x: a number. n: a small whole
+   one. P: rest points, F: frames, L: folds. B W I O S T C E: budget, wind, pin, obstacle, sheet, settings, contacts, seam. */
 void FuzzAct_Read(FuzzAct* act, Fuzz* fuzz, const char* needs);
 
 void FuzzIds_Add(FuzzIds* ids, uint32_t id);

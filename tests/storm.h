@@ -19,6 +19,7 @@ typedef struct StormType {
     bool obstacles; /* there are obstacles, and contacts of the host */
     bool tasks;     /* ticks are shared out */
     bool folds;     /* sheets have folds */
+    bool seams;     /* sheets are sewn to each other, and to themselves */
     int32_t sheets; /* at the start */
     kiriBudget budget;
 } StormType;
@@ -31,6 +32,7 @@ typedef struct Storm {
     kiriSheet sheets[STORM_SHEETS];
     kiriObstacle obstacles[STORM_OBSTACLES];
     int32_t sheetCount, obstacleCount;
+    kiriSeam seam;   /* the last one, or 0 */
     kiriBlade blade; /* or 0 */
     float edge[2][3];
     kiriCut cut; /* that goes on from tick to tick, or 0 */
@@ -39,7 +41,7 @@ typedef struct Storm {
 
 /* ---- Storms ---- */
 
-enum { STORM_TYPES = 11 };
+enum { STORM_TYPES = 12 };
 extern const StormType Storm_Types[STORM_TYPES];
 
 /* With a world of the def, which gets the type's budget and tasks. */

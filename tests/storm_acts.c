@@ -334,6 +334,40 @@ static void Hold(Storm* storm)
     Storm_Note(storm, kiriFrame_Hold(storm->world, frame, state.position, rotation));
 }
 
+/* ---- Seams ---- */
+
+static void ChangeSeams(Storm* storm)
+{
+    kiriSeamDef def;
+    kiriStitch stitch;
+    float lines[2][4];
+    if (Storm_Random(storm, 4) == 0) {
+        Storm_Note(storm, kiriDestroySeam(storm->world, storm->seam));
+    }
+    kiriDefaultSeamDef(&def);
+    for (int k = 0; k < 2; k++) {
+        Storm_AnyRestPoint(storm, lines[k]);
+        Storm_AnyRestPoint(storm, lines[k] + 2);
+    }
+    def.sheetA = Storm_AnySheet(storm);
+    def.sheetB = Storm_AnySheet(storm);
+    def.lineA = lines[0];
+    def.lineB = lines[1];
+    def.countA = def.countB = 2;
+    def.stitches = (int32_t)Storm_Random(storm, 3) * 4;
+    def.stiffness = Storm_Random(storm, 2) == 0 ? 1e-3f : 0.0f;
+    def.restAngle = Storm_Between(storm, -1.0f, 1.0f);
+    def.breakForce = Storm_Random(storm, 2) == 0 ? Storm_Between(storm, 0.5f, 5.0f) : 0.0f;
+    Storm_Note(storm, kiriCreateSeam(storm->world, &def, &storm->seam));
+    if (Storm_Note(storm, kiriSeam_GetStitch(storm->world, storm->seam, 1, &stitch)) == KIRI_OK) {
+        NoteFloats(storm, stitch.position, 3);
+        NoteFloats(storm, stitch.force, 3);
+        NoteFloats(storm, &stitch.angle, 1);
+    }
+    float angle = Storm_Between(storm, -1.0f, 1.0f);
+    Storm_Note(storm, kiriSeam_SetHinge(storm->world, storm->seam, 1e-3f, angle));
+}
+
 /* ---- Loads ---- */
 
 static void Push(Storm* storm)
@@ -538,5 +572,9 @@ void Storm_Act(Storm* storm)
                                    Throw,
                                    ChangeSettings };
     Storm_TakeDetached(storm);
-    acts[Storm_Random(storm, sizeof acts / sizeof acts[0])](storm);
+    if (storm->type->seams && Storm_Random(storm, 6) == 0) {
+        ChangeSeams(storm);
+    } else {
+        acts[Storm_Random(storm, sizeof acts / sizeof acts[0])](storm);
+    }
 }

@@ -16,6 +16,7 @@ const StormType Storm_Types[STORM_TYPES] = {
     { .name = "crowd", .touches = true, .obstacles = true, .tasks = true, .sheets = 4 },
     { .name = "budget", .touches = true, .sheets = 3, .budget = { 64, 400, 100, 8 } },
     { .name = "folds", .obstacles = true, .folds = true, .sheets = 2, .budget = { 64, 1000, 400, 0 } },
+    { .name = "seams", .touches = true, .obstacles = true, .tasks = true, .seams = true, .sheets = 4 },
 };
 
 /* Ranges in an order of its own: the bits are the same. */

@@ -57,6 +57,7 @@ typedef struct kiriFoldLine {
 } kiriFoldLine;
 
 enum { KIRI_MOST_FOLDS = 65536 };
+#define KIRI_MOST_FOLD_REACH (4.0 * KIRI_LATTICE) /* no point of a sheet is farther from a fold */
 #define KIRI_MOST_FOLD 3.14159275 /* rad: most of a rest angle; pi, as a float too */
 
 typedef struct kiriMeshData {

@@ -234,7 +234,7 @@ static bool AreFolds(const kiriMeshData* mesh)
             areFine = areFine && ends[k] >= -MOST && ends[k] <= MOST;
         }
         areFine = areFine && !kiriLattice_IsSame(fold->from, fold->to) && fold->reach >= 0.0 &&
-                  fold->reach <= KIRI_LATTICE && fold->stiffness >= 0.0f && fold->yieldMoment >= 0.0f &&
+                  fold->reach <= KIRI_MOST_FOLD_REACH && fold->stiffness >= 0.0f && fold->yieldMoment >= 0.0f &&
                   fabs((double)fold->restAngle) <= KIRI_MOST_FOLD;
     }
     for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {

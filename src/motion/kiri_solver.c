@@ -119,9 +119,10 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
     bool hasTraces = kiriElement_CornerCount(body) > 0 && !kiriMechanics_IsAffine(&body->mechanics);
     int64_t traced = hasTraces ? KIRI_TRACED * 2 * s->size * links : 0, most = kiriElement_MostMembers(body);
     int64_t strains = KIRI_MOST_STRAINS * elements, rows = KIRI_MOST_STRAINS * most;
-    int64_t yields = body->material.yieldStress > 0.0f ? links : 0;
+    bool isPlastic = body->material.yieldStress > 0.0f;
+    int64_t yields = isPlastic ? links : 0;
     return kiriArray_Reserve(memory, &s->plastics, yields) && kiriArray_Reserve(memory, &s->flows, yields) &&
-           kiriArray_Reserve(memory, &s->regions, yields > 0 ? frames : 0) &&
+           kiriArray_Reserve(memory, &s->regions, isPlastic ? frames : 0) &&
            kiriArray_Reserve(memory, &s->linkParts, links) && kiriArray_Reserve(memory, &s->strainOffsets, links) &&
            kiriArray_Reserve(memory, &s->before, frames) && kiriArray_Reserve(memory, &s->after, frames) &&
            kiriArray_Reserve(memory, &s->predictions, frames) && kiriArray_Reserve(memory, &s->start, frames) &&
@@ -859,7 +860,8 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
     }
     if (island->matrix != NULL && island->size == solver->size && island->frameCount == frames &&
         island->pairs.count == island->next.count &&
-        memcmp(island->pairs.data, island->next.data, sizeof(kiriPair) * (size_t)island->next.count) == 0) {
+        (island->next.count == 0 || /* one frame */
+         memcmp(island->pairs.data, island->next.data, sizeof(kiriPair) * (size_t)island->next.count) == 0)) {
         return true;
     }
     kiriMatrix_Destroy(island->matrix);

@@ -354,7 +354,7 @@ kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* 
     bool isInside = kiriCut_Clip(mesh, &from, &to);
     kiriFoldLine line = { kiriMesh_Snap(mesh, from),
                           kiriMesh_Snap(mesh, to),
-                          kiriMax(FOLD_REACH * sheet->settings.snap, ROUNDED_REACH),
+                          kiriClamp(FOLD_REACH * sheet->settings.snap, ROUNDED_REACH, KIRI_MOST_FOLD_REACH),
                           fold->stiffness,
                           fold->restAngle,
                           fold->yieldMoment,
