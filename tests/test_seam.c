@@ -380,6 +380,56 @@ static void TestRing(void** state)
     Host_Stop(&host);
 }
 
+/* Returns how deep the end of a strip of paper hangs, m: of one piece, or of two that are sewn along it. */
+static double SagOf(int32_t framesA, int32_t framesB)
+{
+    enum { WHOLE = 0 };
+    const float length = 0.12f, width = framesB == WHOLE ? 0.06f : 0.03f;
+    const float upper[4] = { 0.0f, width, length, width }, lower[4] = { 0.0f, 0.0f, length, 0.0f };
+    Host host;
+    Pair pair;
+    kiriPin clamp;
+    kiriPointState end;
+    Host_Start(&host);
+    host.every = 100;
+    kiriSheetDef def = Host_SmallDef();
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    def.material.yieldStress = 0.0f;
+    def.material.airDamping = 20.0f;
+    def.gridResolution = 48;
+    def.framePoints = NULL;
+    for (int k = 0; k < (framesB == WHOLE ? 1 : 2); ++k) {
+        def.frameCount = k == 0 ? framesA : framesB;
+        def.position[1] = width * (float)k;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 24, 6);
+        OK(kiriSheet_ClampLine(host.world, sheet, lower, (const float[]){ 0.0f, width }, &clamp));
+        *(k == 0 ? &pair.a : &pair.b) = sheet;
+    }
+    if (framesB != WHOLE) {
+        kiriSeamDef seam = SeamDef(pair.a, upper, pair.b, lower, 2);
+        OK(kiriCreateSeam(host.world, &seam, &pair.seam));
+    }
+    for (int32_t tick = 0; tick < 300; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    OK(kiriSheet_GetPoint(host.world, pair.a, lower + 2, &end));
+    Host_Stop(&host);
+    return -(double)end.position[2];
+}
+
+/* Lips whose frames differ do not stiffen paper. */
+static void TestStrip(void** state)
+{
+    (void)state;
+    static const int32_t frames[6][2] = { { 5, 8 }, { 7, 11 }, { 9, 4 }, { 12, 9 }, { 13, 17 }, { 16, 16 } };
+    double whole = SagOf(24, 0);
+    for (int i = 0; i < 6; ++i) {
+        double sewn = SagOf(frames[i][0], frames[i][1]);
+        print_message("%d and %d frames: %.2f mm for %.2f\n", frames[i][0], frames[i][1], 1e3 * sewn, 1e3 * whole);
+        assert_true(fabs(sewn / whole - 1.0) < 0.03);
+    }
+}
+
 /* Panels face to face, sewn on three sides, keep apart: but not where they are sewn. */
 static void TestBag(void** state)
 {
@@ -839,7 +889,7 @@ int main(void)
         cmocka_unit_test(TestRing),     cmocka_unit_test(TestPieces), cmocka_unit_test(TestStrength),
         cmocka_unit_test(TestBreak),    cmocka_unit_test(TestSaves),  cmocka_unit_test(TestReplay),
         cmocka_unit_test(TestMemory),   cmocka_unit_test(TestRanges), cmocka_unit_test(TestArguments),
-        cmocka_unit_test(TestBagHolds), cmocka_unit_test(TestForcesStay),
+        cmocka_unit_test(TestBagHolds), cmocka_unit_test(TestForcesStay), cmocka_unit_test(TestStrip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #define STITCH_STIFFNESS 100.0   /* of a stitch, relative to Young's modulus times thickness: more resists no pull, */
-#define SQUARED_PITCH 5e7 /* 1/s^2: and of a frame on it. It sinks by 2e-7 m under its weight */
+#define SQUARED_PITCH 5e7 /* 1/s^2: and of a frame on it. It sinks by 2e-7 m under its weight, */
+#define STIFF_PITCH 5e6   /* and by 2e-6 m where lips are arcs of other frames: these differ a little */
 #define CLOSING_SPEED 1.0 /* m/s: limit of the speed at which lips that are apart are drawn together */
 #define NEAR 256          /* lattice steps: rounding error of the host's floats */
 #define PER_SPACING 1.5   /* stitches for the distance of frames */
@@ -64,15 +65,41 @@ void kiriSeams_Follow(kiriWorld* world)
     }
 }
 
+/* Changes weights so that the mean of the centres lies beside the point along a way, or is as near as weights above 0
+   allow. */
+static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way, kiriWeight* weights, int32_t count)
+{
+    double off[KIRI_CONTACT_WEIGHTS], mean = 0.0, spread = 0.0, last = 0.0;
+    for (int32_t n = 0; n < count; ++n) {
+        off[n] = kiriVec2_Dot(kiriVec2_Sub(sheet->frames.data[weights[n].frame].center, point), way);
+        mean += weights[n].value * off[n];
+    }
+    for (int32_t n = 0; n < count; ++n) {
+        off[n] = mean > 0.0 ? off[n] - mean : mean - off[n];
+        spread += weights[n].value * off[n] * off[n];
+        last = kiriMax(last, off[n]);
+    }
+    double slope = spread > 0.0 ? kiriMin(fabs(mean) / spread, 1.0 / last) : 0.0;
+    for (int32_t n = 0; n < count; ++n) {
+        weights[n].value *= 1.0 - slope * off[n];
+        KIRI_ASSERT(weights[n].value > -1e-9 && weights[n].value < 1.0 + 1e-9);
+    }
+}
+
 /* Finds the frames that carry a point of a lip, and the points that they carry. If the material bends, it is an arc
    between frames: from the centre of each frame to the point it goes along the mean of the frame's axes and of the axes
-   at the point, which are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
-static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, bool bends, kiriContactMember* members)
+   at the point, which are blended from all frames. So lips with other frames bend alike: all of them go through the
+   points of an even bend, for the mean of the centres does. Returns the number of frames. */
+static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch, int end, bool bends,
+                        kiriContactMember* members)
 {
     kiriWeight weights[KIRI_CONTACT_WEIGHTS];
-    int32_t count = kiriTouches_WeighPoint(sheet, at, weights);
+    int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
     KIRI_ASSERT(count >= 0 && count <= KIRI_CONTACT_WEIGHTS);
-    kiriVec2 point = kiriMesh_Local(&sheet->mesh, at), rest = point;
+    kiriVec2 point = kiriMesh_Local(&sheet->mesh, stitch->at[end]), rest = point;
+    if (bends) {
+        Straighten(sheet, point, kiriVec2_Make(-stitch->inward[end].y, stitch->inward[end].x), weights, count);
+    }
     for (int32_t n = 0; n < count; ++n) {
         rest = kiriVec2_AddScaled(rest, -weights[n].value, sheet->frames.data[weights[n].frame].center);
     }
@@ -398,7 +425,7 @@ kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriSeamData* seam, int3
     kiriContactMember members[KIRI_CONTACT_WEIGHTS];
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[stitch], end);
-    return CarriedEnd(sheet, members, CarryEnd(sheet, seam->stitches.data[stitch].at[end], seam->bends, members));
+    return CarriedEnd(sheet, members, CarryEnd(sheet, &seam->stitches.data[stitch], end, seam->bends, members));
 }
 
 /* Finds the vectors of both materials that a hinge keeps alike: of the first one, turned by an angle, and of the second
@@ -419,7 +446,7 @@ double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_
     for (int end = 0; end < 2; ++end) {
         kiriContactMember members[KIRI_CONTACT_WEIGHTS];
         const kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
-        int32_t count = CarryEnd(sheet, data->at[end], seam->bends, members);
+        int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
         seen[end] = BlendedWay(sheet, members, count, ways[end]);
         normal = end == 0 ? BlendedWay(sheet, members, count, kiriVec3_Make(0.0, 0.0, 1.0)) : normal;
     }
@@ -443,7 +470,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
     for (int end = 0; end < 2; ++end) {
         kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
         kiriContactMember members[KIRI_CONTACT_WEIGHTS];
-        int32_t count = CarryEnd(sheet, data->at[end], seam->bends, members);
+        int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
         if (count == 0) {
             return false;
         }
@@ -467,7 +494,8 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
             member->value = end == 0 ? member->value : -member->value;
         }
     }
-    row->stiffness = data->share * kiriMin(SQUARED_PITCH * mass, STITCH_STIFFNESS * stiffness);
+    double pitch = seam->bends ? STIFF_PITCH : SQUARED_PITCH;
+    row->stiffness = data->share * kiriMin(pitch * mass, STITCH_STIFFNESS * stiffness);
     if (seam->bending > 0.0 && row->solvers[0] != NULL && row->solvers[1] != NULL) {
         double off = AngleBetween(seen[0], seen[1]), sine = DirectionAt(off).y;
         double linear = off > 1e-3 ? off / kiriMax(sine, LEAST_SINE) : 1.0; /* the spring pulls with the sine */
