@@ -258,7 +258,7 @@ contact: packages-contact
 	$(BUILD)/tests/contact "$(CASE)"
 
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
 JOIN = ffmpeg -v error -y -framerate 10 -i build/gallery/$(1)/frame_%04d.png -c:v libwebp_anim -quality 60 -loop 0 samples/pictures/$(1).webp

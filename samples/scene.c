@@ -13,6 +13,7 @@
 static const SceneType* const types[] = {
     &bunnyScene,  &spiralScene,     &kirigamiScene, &patchworkScene,
     &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
+    &miuraScene,  &cardScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)

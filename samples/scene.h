@@ -66,6 +66,8 @@ struct Scene {
     kiriWorld* world;
     kiriSheet sheet;
     kiriObstacle floor;
+    const kiriFold* folds; /* of the sheet, while it is made; or null */
+    int32_t foldCount;
     int32_t gridResolution;
     int32_t tick; /* ticks done */
     Stroke strokes[SCENE_MAX_STROKES];

@@ -51,7 +51,10 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
         def->fadeTime = options->unfaded ? 0.0f : def->fadeTime;
         def->contactThickness = 2.0f * scene->type->size * floorGap;
         scene->gridResolution = def->gridResolution;
-        result = kiriCreateSheet(scene->world, def, &scene->sheet);
+        result = scene->folds == NULL
+                     ? kiriCreateSheet(scene->world, def, &scene->sheet)
+                     : kiriCreateFoldedSheet(scene->world, def, scene->folds, scene->foldCount, &scene->sheet);
+        scene->folds = NULL;
     }
     free(scaled);
     return result == KIRI_OK;

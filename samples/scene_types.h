@@ -8,5 +8,6 @@ extern const SceneType bunnyScene, patchworkScene;                              
 extern const SceneType spiralScene, kirigamiScene, vortexScene, fallingGuyScene; /* scene_paper.c */
 extern const SceneType rubberScene;                                              /* scene_rubber.c */
 extern const SceneType flatScene;                                                /* scene_flat.c */
+extern const SceneType miuraScene, cardScene;                                    /* scene_fold.c */
 
 #endif

@@ -407,6 +407,31 @@ static void TestFlatScene(void** state)
 
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
    though each commit changes the borders of bent regions. */
+/* Folds reach their angles, and cuts through them part what they should. */
+static void TestFoldScenes(void** state)
+{
+    static const char* const names[] = { "miura", "card" };
+    static const float angles[2][3] = { { -0.3f, 0.3f, -0.3f }, { 1.57f, 1.57f, -1.57f } }; /* rad */
+    for (int i = 0; i < 2; i++) {
+        Scene scene;
+        kiriCounts counts;
+        Start(&scene, names[i]);
+        for (int32_t tick = 0; tick < scene.type->ticks; tick++) {
+            assert_true(TickScene(&scene) >= 0);
+        }
+        kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
+        assert_int_equal(counts.pieces, i == 0 ? 2 : 1);
+        for (int k = 0; k < 3; k++) {
+            kiriFoldState fold;
+            int32_t index = i == 0 ? 6 * k + 3 : k; /* one of each zigzag to the left of the cut */
+            assert_int_equal(kiriSheet_GetFold(scene.world, scene.sheet, index, &fold), KIRI_OK);
+            print_message("%s, fold %d: %.3f rad\n", names[i], (int)index, fold.angle);
+            assert_true(fabs(fold.angle - (double)angles[i][k]) < 0.1);
+        }
+        Scene_Stop(&scene);
+    }
+}
+
 static void TestSpiralIsNotThrown(void** state)
 {
     Scene scene;
@@ -465,7 +490,7 @@ int main(void)
         cmocka_unit_test(TestCircle),          cmocka_unit_test(TestSpiralIsNotThrown),
         cmocka_unit_test(TestSpiralScene),     cmocka_unit_test(TestPatchworkScene),
         cmocka_unit_test(TestRubberStretches), cmocka_unit_test(TestRubberScene),
-        cmocka_unit_test(TestFlatScene),
+        cmocka_unit_test(TestFlatScene),       cmocka_unit_test(TestFoldScenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
