@@ -212,11 +212,9 @@ type Model int32
 const (
 	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.
 	ModelLinks Model = 0
-	// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
-	// takes about three times as long. From 1e8 Pa on use 8 `iterations`.
+	// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets).
 	ModelAffine Model = 1
-	// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
-	// thinner the sheet, the less it bends; the manual has figures (accuracy).
+	// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy).
 	ModelPoints Model = 2
 )
 
@@ -228,8 +226,7 @@ var namesModel = map[Model]string{
 
 func (v Model) String() string { return namesModel[v] }
 
-// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
-// the motion only where something touches or holds the sheet. Collision points stay on the linear surface.
+// The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).
 type Skinning int32
 
 const (
@@ -250,8 +247,7 @@ func (v Skinning) String() string { return namesSkinning[v] }
 type TimeStepping int32
 
 const (
-	// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new or
-	// moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy).
+	// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler.
 	TimeSteppingSecondOrder TimeStepping = 0
 	// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 	TimeSteppingEuler TimeStepping = 1
@@ -281,9 +277,9 @@ var namesPinType = map[PinType]string{
 
 func (v PinType) String() string { return namesPinType[v] }
 
-// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
-// not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-// kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m.
+// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities alone: set
+// pose and velocity before a tick, and apply the impulse of its state after it (manual, contact). Lengths: up to 1e6
+// m.
 type ObstacleType int32
 
 const (
@@ -297,7 +293,7 @@ const (
 	ObstacleBox ObstacleType = 3
 	// radius, height: along the third column
 	ObstacleCylinder ObstacleType = 4
-	// outline: a convex polygon in the plane of the first two columns; height: along the third, 0: without end
+	// outline: convex, in the plane of the first two columns; height along the third, 0: endless
 	ObstaclePrism ObstacleType = 5
 )
 
@@ -380,9 +376,9 @@ type BladeID uint32
 type SeamID uint32
 
 // Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
-// 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
-// depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
-// bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).
+// 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes
+// effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual,
+// budget).
 type Budget struct {
 	// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 	Triangles int32
@@ -433,20 +429,15 @@ type Profile struct {
 	SamplesRefreshed int32
 	// Items in the units of kiriBudget. An item that takes more work counts more than once.
 	SolverIterations int32
-	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	CellsChanged int32
-	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	WeightsChanged int32
-	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	VerticesChanged int32
-	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	PointsChanged int32
-	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	LinksChanged int32
 	// sheets in which a cut took effect
 	Commits int32
@@ -534,17 +525,14 @@ type SheetDef struct {
 	Material Material
 	// grid squares along the longer side, 1 to 4096; default 32
 	GridResolution int32
-	// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
-	// side. The manual has more (cutting)
+	// m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
 	SnapDistance float32
-	// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-	// without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).
+	// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
 	WeldDistance float32
 	// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-	// frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
-	// cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
-	// sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and
-	// more; default 5
+	// frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
+	// frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
+	// default 5
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
@@ -553,9 +541,9 @@ type SheetDef struct {
 	FramePoints [][2]float32
 	// re-sampling stops here; default 256
 	MaxFrames int32
-	// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
-	// (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a frame
-	// at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). default 0.95
+	// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+	// beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
+	// default 0.95
 	RigidWeight float32
 	// default 0
 	RigidArea float32
@@ -578,15 +566,13 @@ type SheetDef struct {
 	CollisionPoints int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-	// and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+	// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 	SleepSpeed float32
 	// KIRI_MODEL_..., default KIRI_MODEL_LINKS
 	Model Model
 	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 	Skinning Skinning
-	// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
-	// across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.
+	// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
 	Planar int32
 	// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 	TimeStepping TimeStepping
@@ -621,8 +607,7 @@ type SheetSettings struct {
 	SelfContact int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-	// and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+	// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 	SleepSpeed float32
 	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 	Skinning Skinning
@@ -634,9 +619,8 @@ type SheetSettings struct {
 	Normals int32
 }
 
-// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
-// piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
-// lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).
+// A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and each side has its
+// own frames. Lines may end in the material, meet and cross; cuts go through or along them (manual, folding).
 type Fold struct {
 	// m
 	From [2]float32
@@ -646,22 +630,19 @@ type Fold struct {
 	Stiffness float32
 	// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
 	RestAngle float32
-	// N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
-	// Only in a material with a yieldStress
+	// N m per metre: it bends for good beyond, with a yieldStress. 0: no limit
 	YieldMoment float32
 }
 
-// A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
-// joined: 0 where all of it is cut, or inside one region.
+// A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides: not cut, nor rigid.
 type FoldState struct {
 	Fold   Fold
 	Angle  float64
 	Length float64
 }
 
-// The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
-// have the precision of the library, 2^-29 of the sheet.
+// The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when indices
+// or vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet.
 type Mesh struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -686,8 +667,7 @@ type Range struct {
 	Count int32
 }
 
-// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
-// Other data of a vertex, and the corners of a triangle, change only in these ranges.
+// Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change in every tick.
 type Dirty struct {
 	// up to the last one of the mesh
 	NewVertices Range
@@ -768,19 +748,18 @@ type PointState struct {
 	Frame FrameID
 }
 
-// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
-// change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending work has
-// not separated anything yet. Momentum is about the world's origin.
+// A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces, and change when a
+// piece comes off or goes (kiriFrame_GetPiece). Cuts with pending work have separated nothing yet.
 type PieceState struct {
 	// m^2, kg
 	Area float64
 	// m^2, kg
 	Mass float64
-	// of mass, m; kg m/s; kg m^2/s
+	// of mass, m; kg m/s, kg m^2/s about the origin
 	Center [3]float64
-	// of mass, m; kg m/s; kg m^2/s
+	// of mass, m; kg m/s, kg m^2/s about the origin
 	Momentum [3]float64
-	// of mass, m; kg m/s; kg m^2/s
+	// of mass, m; kg m/s, kg m^2/s about the origin
 	AngularMomentum [3]float64
 	// m, world: the smallest box around its vertices
 	Lower [3]float32
@@ -835,9 +814,8 @@ type FrameState struct {
 	Held int32
 }
 
-// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
-// square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
-// constant wind, and still air (zero velocity) resists.
+// Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density
+// / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.
 type Wind struct {
 	// m/s
 	Velocity [3]float32
@@ -884,10 +862,9 @@ type PinState struct {
 	Obstacle ObstacleID
 }
 
-// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
-// into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
-// through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
-// them. The manual has lines, hinges and breaking (sewing).
+// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
+// stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
+// stitches. It ends with the piece of one of its points (manual, sewing).
 type SeamDef struct {
 	cookie uint32
 	// of the same model, and not planar
@@ -925,9 +902,8 @@ type Stitch struct {
 	Angle float32
 }
 
-// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
-// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-// sheet. A contact that the point does not reach in the tick costs little and does nothing.
+// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, with
+// Coulomb friction. The host computes planes from the visible surface for each tick. Planes out of reach do nothing.
 type Contact struct {
 	// index of the collision point; -1: restPoint names the point
 	Point int32
@@ -1300,9 +1276,8 @@ var poolWorldShiftOrigin pool[struct {
 	origin [3]float32
 }]
 
-// Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
-// floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
-// keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+// Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing wakes.
+// Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
 func (w *World) ShiftOrigin(origin [3]float32) error {
 	if err := w.check(); err != nil {
 		return err
@@ -1355,8 +1330,7 @@ var poolWorldGetStateHash pool[struct {
 	hash C.uint64_t
 }]
 
-// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
-// same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is pending.
+// Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual, budget).
 func (w *World) StateHash() (uint64, error) {
 	var made0 uint64
 	if err := w.check(); err != nil {
@@ -1399,8 +1373,7 @@ again:
 	return things[Sheet](w, sheets[:answer.count]), nil
 }
 
-// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A replay
-// stops there. The world does not change; without a recording nothing happens.
+// Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops there.
 func (w *World) Note(bytes []byte) error {
 	if err := w.check(); err != nil {
 		return err
@@ -1428,10 +1401,10 @@ func (w *World) FinishCuts() error {
 	return nil
 }
 
-// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give a
-// strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Arrays
-// that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes
-// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
+// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save cannot
+// crash the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live until the next
+// tick. On failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another version.
+// KIRI_ERROR_MEMORY.
 func (w *World) Load(bytes []byte) error {
 	if err := w.check(); err != nil {
 		return err
@@ -1540,7 +1513,8 @@ var poolDefaultSheetDef pool[struct {
 	def C.kiriSheetDef
 }]
 
-// Fills the def with its defaults, and stamps it. It has no mesh yet.
+// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+// failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 func DefaultSheetDef() SheetDef {
 	block := poolDefaultSheetDef.take()
 	C.kiriDefaultSheetDef(&block.def)
@@ -1554,8 +1528,8 @@ var poolWorldCreateSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
-// do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
+// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+// failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1573,8 +1547,8 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	return Sheet{w, SheetID(answer.sheet)}, nil
 }
 
-// Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
-// do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
+// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+// failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 func (s Sheet) Destroy() error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -1618,7 +1592,8 @@ var poolSheetGetSettings pool[struct {
 	settings SheetSettings
 }]
 
-// Gets the current settings, stamped for kiriSheet_SetSettings.
+// Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not come
+// from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 func (s Sheet) Settings() (SheetSettings, error) {
 	var made0 SheetSettings
 	if err := s.World.check(); err != nil {
@@ -1634,9 +1609,8 @@ func (s Sheet) Settings() (SheetSettings, error) {
 	return answer.settings, nil
 }
 
-// Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
-// kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-// momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
+// Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not come
+// from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 func (s Sheet) SetSettings(settings *SheetSettings) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -1653,8 +1627,7 @@ var poolWorldCreateFoldedSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
-// not KIRI_MODEL_LINKS.
+// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
 func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1676,9 +1649,8 @@ var poolSheetAddFold pool[struct {
 	index C.int32_t
 }]
 
-// Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
-// cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and moves
-// to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+// Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+// KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
 func (s Sheet) AddFold(fold *Fold) (int32, error) {
 	var made0 int32
 	if err := s.World.check(); err != nil {
@@ -1814,7 +1786,7 @@ var poolSheetGetCounts pool[struct {
 	counts Counts
 }]
 
-// Gets the counts, at no cost.
+// Get the counts, at no cost; sum the totals over the frames.
 func (s Sheet) Counts() (Counts, error) {
 	var made0 Counts
 	if err := s.World.check(); err != nil {
@@ -1834,7 +1806,7 @@ var poolSheetGetTotals pool[struct {
 	totals Totals
 }]
 
-// Sums the totals over the frames.
+// Get the counts, at no cost; sum the totals over the frames.
 func (s Sheet) Totals() (Totals, error) {
 	var made0 Totals
 	if err := s.World.check(); err != nil {
@@ -1854,9 +1826,8 @@ var poolSheetEstimateError pool[struct {
 	relative C.double
 }]
 
-// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
-// many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
-// KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
+// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
+// to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
 func (s Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := s.World.check(); err != nil {
@@ -1910,10 +1881,9 @@ var poolSheetTransform pool[struct {
 	translation [3]float32
 }]
 
-// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
-// columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
-// pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
-// set targets or move obstacles (sheets). Pending loads and contacts stay.
+// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
+// of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
+// clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
 func (s Sheet) Transform(rotation [9]float32, translation [3]float32) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2095,8 +2065,7 @@ var poolSheetRaycast pool[struct {
 	hit       Hit
 }]
 
-// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
-// not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 func (s Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
 	var made0 Hit
 	if err := s.World.check(); err != nil {
@@ -2121,8 +2090,7 @@ var poolWorldRaycast pool[struct {
 	hit       Hit
 }]
 
-// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
-// not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+// Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Sheet, Hit, error) {
 	var made0 Sheet
 	var made1 Hit
@@ -2248,11 +2216,11 @@ var poolFrameDetachPiece pool[struct {
 	detached C.kiriSheet
 }]
 
-// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and the
-// motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in the new
-// sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
-// 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
-// KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
+// Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay with the
+// old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut is pending, or
+// the budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and
+// KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet
+// (manual, cutting).
 func (f Frame) DetachPiece() (Sheet, error) {
 	var made0 Sheet
 	if err := f.World.check(); err != nil {
@@ -2268,9 +2236,8 @@ func (f Frame) DetachPiece() (Sheet, error) {
 	return Sheet{f.World, SheetID(answer.detached)}, nil
 }
 
-// Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
-// samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
-// corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+// Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
+// is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
 func (f Frame) DestroyPiece() (bool, error) {
 	if err := f.World.check(); err != nil {
 		return false, err
@@ -2283,9 +2250,9 @@ func (f Frame) DestroyPiece() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
-// once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet together.
-// detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+// KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+// pending.
 func (w *World) DetachPieces(frames []Frame) ([]Sheet, error) {
 	var made0 []Sheet
 	if err := w.check(); err != nil {
@@ -2301,9 +2268,9 @@ func (w *World) DetachPieces(frames []Frame) ([]Sheet, error) {
 	return things[Sheet](w, detached), nil
 }
 
-// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
-// once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet together.
-// detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+// KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+// pending.
 func (w *World) DestroyPieces(frames []Frame) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -2321,8 +2288,7 @@ var poolSheetDropCrumbs pool[struct {
 	count C.int32_t
 }]
 
-// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
-// the largest piece is pending to become a sheet, the largest of the others stays, too.
+// Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number.
 func (s Sheet) DropCrumbs(area float32) (int, error) {
 	var made0 int
 	if err := s.World.check(); err != nil {
@@ -2416,7 +2382,9 @@ var poolWorldBeginBlade pool[struct {
 	blade C.kiriBlade
 }]
 
-// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
+// material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is in
+// a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
 func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 	var made0 Blade
 	if err := w.check(); err != nil {
@@ -2518,11 +2486,26 @@ again:
 	return things[Frame](s.World, frames[:answer.count]), nil
 }
 
+// Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
+// the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
+	if err := f.World.check(); err != nil {
+		return err
+	}
+	result := C.kiriFrame_Hold(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_Hold", result, true); err != nil {
+		return err
+	}
+	return nil
+}
+
 var poolFrameGetState pool[struct {
 	state FrameState
 }]
 
-// Gets the current state.
+// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+// over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free frame.
 func (f Frame) State() (FrameState, error) {
 	var made0 FrameState
 	if err := f.World.check(); err != nil {
@@ -2538,28 +2521,13 @@ func (f Frame) State() (FrameState, error) {
 	return answer.state, nil
 }
 
-// Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
-// (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
-// Material of which held frames carry more than half moves through obstacles.
-func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
-	if err := f.World.check(); err != nil {
-		return err
-	}
-	result := C.kiriFrame_Hold(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
-	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_Hold", result, true); err != nil {
-		return err
-	}
-	return nil
-}
-
 var poolFrameGetReaction pool[struct {
 	force  [3]float64
 	torque [3]float64
 }]
 
-// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
-// over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
+// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+// over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free frame.
 func (f Frame) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2700,7 +2668,7 @@ var poolDefaultPinDef pool[struct {
 	def PinDef
 }]
 
-// Fills the def with its defaults, and stamps it.
+// Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 func DefaultPinDef() PinDef {
 	block := poolDefaultPinDef.take()
 	C.kiriDefaultPinDef((*C.kiriPinDef)(unsafe.Pointer(&block.def)))
@@ -2712,7 +2680,7 @@ var poolSheetCreatePin pool[struct {
 	pin C.kiriPin
 }]
 
-// Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+// Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 func (s Sheet) CreatePin(def *PinDef) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2728,7 +2696,7 @@ func (s Sheet) CreatePin(def *PinDef) (Pin, error) {
 	return Pin{s.World, PinID(answer.pin)}, nil
 }
 
-// Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+// Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 func (p Pin) Destroy() error {
 	if err := p.World.check(); err != nil {
 		return err
@@ -2747,10 +2715,9 @@ var poolSheetClampLine pool[struct {
 	clamp C.kiriPin
 }]
 
-// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
-// of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
-// straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
-// cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+// Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+// hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+// along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2774,10 +2741,9 @@ var poolSheetHingeLine pool[struct {
 	hinge C.kiriPin
 }]
 
-// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
-// of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
-// straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
-// cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+// Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+// hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+// along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 func (s Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2799,9 +2765,9 @@ var poolPinSetTarget pool[struct {
 	target [3]float32
 }]
 
-// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-// the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible surface.
-// A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
+// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+// (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetTarget(target [3]float32) error {
 	if err := p.World.check(); err != nil {
 		return err
@@ -2822,8 +2788,9 @@ var poolPinSetPose pool[struct {
 	rotation [9]float32
 }]
 
-// Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
-// planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
+// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+// (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetPose(target [3]float32, rotation [9]float32) error {
 	if err := p.World.check(); err != nil {
 		return err
@@ -2857,7 +2824,8 @@ var poolPinGetState pool[struct {
 	state PinState
 }]
 
-// Gets the current state.
+// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+// the last tick that moved it. At rest the sum of reactions is the weight.
 func (p Pin) State() (PinState, error) {
 	var made0 PinState
 	if err := p.World.check(); err != nil {
@@ -2878,8 +2846,8 @@ var poolPinGetReaction pool[struct {
 	torque [3]float64
 }]
 
-// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
-// tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in motion.
+// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+// the last tick that moved it. At rest the sum of reactions is the weight.
 func (p Pin) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2927,7 +2895,8 @@ var poolDefaultSeamDef pool[struct {
 	def C.kiriSeamDef
 }]
 
-// Fills the def with its defaults, and stamps it.
+// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+// KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 func DefaultSeamDef() SeamDef {
 	block := poolDefaultSeamDef.take()
 	C.kiriDefaultSeamDef(&block.def)
@@ -2941,8 +2910,8 @@ var poolWorldCreateSeam pool[struct {
 	seam C.kiriSeam
 }]
 
-// Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+// KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 	var made0 Seam
 	if err := w.check(); err != nil {
@@ -2960,8 +2929,8 @@ func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 	return Seam{w, SeamID(answer.seam)}, nil
 }
 
-// Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+// KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 func (s Seam) Destroy() error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2974,7 +2943,8 @@ func (s Seam) Destroy() error {
 	return nil
 }
 
-// Sets stiffness and restAngle, as in the def.
+// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+// KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 func (s Seam) SetHinge(stiffness float32, restAngle float32) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2991,7 +2961,7 @@ var poolSeamGetStitch pool[struct {
 	stitch Stitch
 }]
 
-// Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+// Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 func (s Seam) Stitch(index int32) (Stitch, error) {
 	var made0 Stitch
 	if err := s.World.check(); err != nil {
@@ -3011,7 +2981,7 @@ var poolSeamGetCount pool[struct {
 	stitches C.int32_t
 }]
 
-// Gets the number of stitches that are left.
+// Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 func (s Seam) Count() (int32, error) {
 	var made0 int32
 	if err := s.World.check(); err != nil {
@@ -3054,8 +3024,7 @@ again:
 	return things[Seam](w, seams[:answer.count]), nil
 }
 
-// Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
-// or rest point, and obstacle of an earlier one starts with the earlier impulse.
+// Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its impulse.
 func (s Sheet) SetContacts(contacts []Contact) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -3093,7 +3062,7 @@ var poolDefaultObstacleDef pool[struct {
 	def C.kiriObstacleDef
 }]
 
-// Fills the def with its defaults, and stamps it.
+// Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 func DefaultObstacleDef() ObstacleDef {
 	block := poolDefaultObstacleDef.take()
 	C.kiriDefaultObstacleDef(&block.def)
@@ -3107,7 +3076,7 @@ var poolWorldCreateObstacle pool[struct {
 	obstacle C.kiriObstacle
 }]
 
-// Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+// Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	var made0 Obstacle
 	if err := w.check(); err != nil {
@@ -3125,7 +3094,7 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	return Obstacle{w, ObstacleID(answer.obstacle)}, nil
 }
 
-// Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+// Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 func (o Obstacle) Destroy() error {
 	if err := o.World.check(); err != nil {
 		return err
@@ -3249,8 +3218,7 @@ var poolSheetGetReach pool[struct {
 	upper [3]float32
 }]
 
-// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
-// no obstacles or contacts outside. For moving obstacles add their own way.
+// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add their way.
 func (s Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	var made0 [3]float32
 	var made1 [3]float32
@@ -3351,8 +3319,8 @@ var functions = map[string]string{
 	"kiriBlade_MoveRay":               "Blade.MoveRay",
 	"kiriBlade_End":                   "Blade.End",
 	"kiriSheet_GetFrames":             "Sheet.Frames",
-	"kiriFrame_GetState":              "Frame.State",
 	"kiriFrame_Hold":                  "Frame.Hold",
+	"kiriFrame_GetState":              "Frame.State",
 	"kiriFrame_GetReaction":           "Frame.Reaction",
 	"kiriFrame_ApplyForce":            "Frame.ApplyForce",
 	"kiriSheet_ApplyForce":            "Sheet.ApplyForce",

@@ -1635,17 +1635,6 @@ static const Parameter SHEET_GET_FRAMES_PARAMETERS[] = {
     { "count", FORM_OUT_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
-static int64_t Call_kiriFrame_GetState(void* const* a)
-{
-    return kiriFrame_GetState(a[0], *(kiriFrame*)a[1], a[2]);
-}
-
-static const Parameter FRAME_GET_STATE_PARAMETERS[] = {
-    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "frame", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_FRAME, NULL, NULL },
-    { "state", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &FRAME_STATE, NULL },
-};
-
 static const Argument FRAME_HOLD_ARGUMENTS[] = {
     { "position", KIND_NIL, CLASS_NONE },
     { "rotation", KIND_NIL, CLASS_NONE },
@@ -1661,6 +1650,17 @@ static const Parameter FRAME_HOLD_PARAMETERS[] = {
     { "frame", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_FRAME, NULL, NULL },
     { "position", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 1, CLASS_NONE, NULL, NULL },
     { "rotation", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_BASIS, 9, 0, 0, 1, CLASS_NONE, NULL, NULL },
+};
+
+static int64_t Call_kiriFrame_GetState(void* const* a)
+{
+    return kiriFrame_GetState(a[0], *(kiriFrame*)a[1], a[2]);
+}
+
+static const Parameter FRAME_GET_STATE_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "frame", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_FRAME, NULL, NULL },
+    { "state", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &FRAME_STATE, NULL },
 };
 
 static int64_t Call_kiriFrame_GetReaction(void* const* a)
@@ -2283,8 +2283,8 @@ const Method METHODS[] = {
     { CLASS_BLADE, "move_ray", "kiriBlade_MoveRay", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, BLADE_MOVE_RAY_ARGUMENTS, 5, BLADE_MOVE_RAY_PARAMETERS, Call_kiriBlade_MoveRay, NULL },
     { CLASS_BLADE, "end", "kiriBlade_End", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, BLADE_END_PARAMETERS, Call_kiriBlade_End, NULL },
     { CLASS_SHEET, "get_frames", "kiriSheet_GetFrames", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 5, SHEET_GET_FRAMES_PARAMETERS, Call_kiriSheet_GetFrames, NULL },
-    { CLASS_FRAME, "get_state", "kiriFrame_GetState", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, FRAME_GET_STATE_PARAMETERS, Call_kiriFrame_GetState, NULL },
     { CLASS_FRAME, "hold", "kiriFrame_Hold", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 0, FRAME_HOLD_ARGUMENTS, 4, FRAME_HOLD_PARAMETERS, Call_kiriFrame_Hold, NULL },
+    { CLASS_FRAME, "get_state", "kiriFrame_GetState", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, FRAME_GET_STATE_PARAMETERS, Call_kiriFrame_GetState, NULL },
     { CLASS_FRAME, "get_reaction", "kiriFrame_GetReaction", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 4, FRAME_GET_REACTION_PARAMETERS, Call_kiriFrame_GetReaction, NULL },
     { CLASS_FRAME, "apply_force", "kiriFrame_ApplyForce", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, FRAME_APPLY_FORCE_ARGUMENTS, 4, FRAME_APPLY_FORCE_PARAMETERS, Call_kiriFrame_ApplyForce, NULL },
     { CLASS_SHEET, "apply_force", "kiriSheet_ApplyForce", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, SHEET_APPLY_FORCE_ARGUMENTS, 5, SHEET_APPLY_FORCE_PARAMETERS, Call_kiriSheet_ApplyForce, NULL },

@@ -134,16 +134,13 @@ export enum QualityPreset {
 export enum Model {
     /** Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     Links = 0,
-    /** Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
-     *  tick takes about three times as long. From 1e8 Pa on use 8 `iterations`. */
+    /** Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets). */
     Affine = 1,
-    /** Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
-     *  thinner the sheet, the less it bends; the manual has figures (accuracy). */
+    /** Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy). */
     Points = 2,
 }
 
-/** The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
- *  the motion only where something touches or holds the sheet. Collision points stay on the linear surface. */
+/** The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
 export enum Skinning {
     /** each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     Linear = 0,
@@ -153,8 +150,7 @@ export enum Skinning {
 
 /** Integration in time. Both solve one linear system an iteration. */
 export enum TimeStepping {
-    /** TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new
-     *  or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy). */
+    /** TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler. */
     SecondOrder = 0,
     /** Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
     Euler = 1,
@@ -167,9 +163,9 @@ export enum PinType {
     Clamp = 2,
 }
 
-/** A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do not
- *  move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
- *  Obstacle.getState to the engine's body after it (manual, contact). Lengths are up to 1e6 m. */
+/** A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities alone: set
+ *  pose and velocity before a tick, and apply the impulse of its state after it (manual, contact). Lengths: up to 1e6
+ *  m. */
 export enum ObstacleType {
     /** all below the plane through its position; the third column of its rotation points out */
     Plane = 0,
@@ -181,7 +177,7 @@ export enum ObstacleType {
     Box = 3,
     /** radius, height: along the third column */
     Cylinder = 4,
-    /** outline: a convex polygon in the plane of the first two columns; height: along the third, 0: without end */
+    /** outline: convex, in the plane of the first two columns; height along the third, 0: endless */
     Prism = 5,
 }
 
@@ -213,9 +209,9 @@ export enum DrawFlag {
 }
 
 /** Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
- *  30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
- *  depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
- *  bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget). */
+ *  30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes
+ *  effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual,
+ *  budget). */
 export class Budget {
     /** split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     triangles: number;
@@ -314,20 +310,15 @@ export class Profile {
     samplesRefreshed: number;
     /** Items in the units of kiriBudget. An item that takes more work counts more than once. */
     solverIterations: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     cellsChanged: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     weightsChanged: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     verticesChanged: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     pointsChanged: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     linksChanged: number;
     /** sheets in which a cut took effect */
     commits: number;
@@ -356,20 +347,15 @@ export interface ProfileGiven {
     samplesRefreshed?: number;
     /** Items in the units of kiriBudget. An item that takes more work counts more than once. */
     solverIterations?: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     cellsChanged?: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     weightsChanged?: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     verticesChanged?: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     pointsChanged?: number;
-    /** Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-     *  points with other weights, links that differ. Sheet.getCounts has the totals. */
+    /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     linksChanged?: number;
     /** sheets in which a cut took effect */
     commits?: number;
@@ -497,17 +483,14 @@ export class SheetDef {
     material: Material;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
-     *  side. The manual has more (cutting) */
+    /** m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side */
     snapDistance: number;
-    /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-     *  without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
+    /** m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     weldDistance: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
-     *  cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
-     *  sheet's own weight. The manual has the rules (accuracy), Sheet.estimateError checks the result. 0, or 1 and
-     *  more; default 5 */
+     *  frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
+     *  frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
+     *  default 5 */
     frameCount: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength: number;
@@ -516,9 +499,8 @@ export class SheetDef {
     framePoints: Float32Array | null;
     /** re-sampling stops here; default 256 */
     maxFrames: number;
-    /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-     *  rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
-     *  area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy).
+    /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+     *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
      *  default 0.95 */
     rigidWeight: number;
     /** default 0 */
@@ -542,15 +524,13 @@ export class SheetDef {
     collisionPoints: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
+    /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model: Model;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning: Skinning;
-    /** 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
-     *  across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0. */
+    /** 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     planar: boolean;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping: TimeStepping;
@@ -581,17 +561,14 @@ export interface SheetDefGiven {
     material?: MaterialGiven;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution?: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
-     *  side. The manual has more (cutting) */
+    /** m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side */
     snapDistance?: number;
-    /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-     *  without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
+    /** m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     weldDistance?: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
-     *  cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
-     *  sheet's own weight. The manual has the rules (accuracy), Sheet.estimateError checks the result. 0, or 1 and
-     *  more; default 5 */
+     *  frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
+     *  frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
+     *  default 5 */
     frameCount?: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength?: number;
@@ -600,9 +577,8 @@ export interface SheetDefGiven {
     framePoints?: ArrayLike<number> | null;
     /** re-sampling stops here; default 256 */
     maxFrames?: number;
-    /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-     *  rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
-     *  area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy).
+    /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+     *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
      *  default 0.95 */
     rigidWeight?: number;
     /** default 0 */
@@ -626,15 +602,13 @@ export interface SheetDefGiven {
     collisionPoints?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
+    /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed?: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model?: Model;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning?: Skinning;
-    /** 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
-     *  across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0. */
+    /** 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     planar?: boolean | number;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping?: TimeStepping;
@@ -671,8 +645,7 @@ export class SheetSettings {
     selfContact: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
+    /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed: number;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning: Skinning;
@@ -706,8 +679,7 @@ export interface SheetSettingsGiven {
     selfContact?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
+    /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed?: number;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning?: Skinning;
@@ -719,9 +691,8 @@ export interface SheetSettingsGiven {
     normals?: boolean | number;
 }
 
-/** A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
- *  piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
- *  lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding). */
+/** A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and each side has its own
+ *  frames. Lines may end in the material, meet and cross; cuts go through or along them (manual, folding). */
 export class Fold {
     /** m */
     from: number[];
@@ -731,8 +702,7 @@ export class Fold {
     stiffness: number;
     /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
     restAngle: number;
-    /** N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
-     *  Only in a material with a yieldStress */
+    /** N m per metre: it bends for good beyond, with a yieldStress. 0: no limit */
     yieldMoment: number;
 }
 /** What a host gives as Fold: what is left out is 0. */
@@ -745,23 +715,20 @@ export interface FoldGiven {
     stiffness?: number;
     /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
     restAngle?: number;
-    /** N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit.
-     *  Only in a material with a yieldStress */
+    /** N m per metre: it bends for good beyond, with a yieldStress. 0: no limit */
     yieldMoment?: number;
 }
 
-/** A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are joined:
- *  0 where all of it is cut, or inside one region. */
+/** A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides: not cut, nor rigid. */
 export class FoldState {
     fold: Fold;
     angle: number;
     length: number;
 }
 
-/** The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
- *  grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
- *  have the precision of the library, 2^-29 of the sheet. Arrays are those of the library: after the next tick they
- *  throw. */
+/** The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when indices
+ *  or vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet. Arrays are those of
+ *  the library: after the next tick they throw. */
 export class Mesh {
     /** 3 a vertex, m, world */
     readonly positions: Float32Array;
@@ -786,8 +753,7 @@ export class Range {
     count: number;
 }
 
-/** Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick. Other
- *  data of a vertex, and the corners of a triangle, change only in these ranges. */
+/** Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change in every tick. */
 export class Dirty {
     /** up to the last one of the mesh */
     newVertices: Range;
@@ -869,19 +835,18 @@ export class PointState {
     frame: Frame | null;
 }
 
-/** A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
- *  change when a piece comes off or goes, and Frame.getPiece returns the current one. A cut with pending work has not
- *  separated anything yet. Momentum is about the world's origin. */
+/** A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces, and change when a
+ *  piece comes off or goes (Frame.getPiece). Cuts with pending work have separated nothing yet. */
 export class PieceState {
     /** m^2, kg */
     area: number;
     /** m^2, kg */
     mass: number;
-    /** of mass, m; kg m/s; kg m^2/s */
+    /** of mass, m; kg m/s, kg m^2/s about the origin */
     center: number[];
-    /** of mass, m; kg m/s; kg m^2/s */
+    /** of mass, m; kg m/s, kg m^2/s about the origin */
     momentum: number[];
-    /** of mass, m; kg m/s; kg m^2/s */
+    /** of mass, m; kg m/s, kg m^2/s about the origin */
     angularMomentum: number[];
     /** m, world: the smallest box around its vertices */
     lower: number[];
@@ -1001,10 +966,9 @@ export class PinState {
     obstacle: Obstacle | null;
 }
 
-/** A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
- *  into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
- *  through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
- *  them. The manual has lines, hinges and breaking (sewing). */
+/** A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
+ *  stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
+ *  stitches. It ends with the piece of one of its points (manual, sewing). */
 export class SeamDef {
     cookie: number;
     /** of the same model, and not planar */
@@ -1243,9 +1207,8 @@ export function getResultName(result: ResultCode): string;
 /** Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 export function getResultText(result: ResultCode): string;
 
-/** Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
- *  linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The host
- *  chooses by its clock, so a replay must set the same budgets. */
+/** Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
+ *  limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets. */
 export function fitBudget(profile: ProfileGiven, microseconds: number, budget: Budget): ResultCode;
 
 /** Returns the name of a stage; "" for another number. */
@@ -1257,8 +1220,7 @@ export function getMaterial(preset: MaterialPreset, into?: Material): Material;
 /** Gets the numbers of a preset, KIRI_QUALITY_... */
 export function getQuality(preset: QualityPreset, into?: Quality): Quality;
 
-/** Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats
- *  and 6 * columns * rows indices. columns and rows are 1 to 4096. */
+/** Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 export function fillRectangle(width: number, height: number, columns: number, rows: number): { restPositions: Float32Array, indices: Int32Array };
 
 /** A world, empty at first. Destroy it when it is done with: its memory is not JavaScript's. */
@@ -1277,45 +1239,40 @@ export class World {
      *  left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
      *  stopped. */
     tick(dt: number, substeps: number): ResultCode;
-    /** Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
-     *  that only reads does not change the line, and logs its own. Valid until the next function that changes the
-     *  world. */
+    /** Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next
+     *  one. */
     getLastError(): string;
-    /** Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
-     *  floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
-     *  keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
+    /** Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
+     *  wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit
+     *  a float. */
     shiftOrigin(origin: ArrayLike<number>): ResultCode;
     /** Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
     setGravity(gravity: ArrayLike<number>): ResultCode;
     /** Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
     setBudget(budget: BudgetGiven): ResultCode;
-    /** Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
-     *  same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
-     *  pending. */
+    /** Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual, budget). */
     getStateHash(): bigint;
     /** Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are. */
     getSheets(): Sheet[];
-    /** Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
-     *  replay stops there. The world does not change; without a recording nothing happens. */
+    /** Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops there. */
     note(bytes: Uint8Array): ResultCode;
     /** Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
-     *  host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call
-     *  gave another result, other ids or another state than recorded; the line names it, and the next call goes on
-     *  behind it. KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line
-     *  says where. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. */
+     *  host's. KIRI_PENDING: more calls follow. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
+     *  result, other ids or another state; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: not
+     *  a recording, damaged, cut short, or of another version. KIRI_ERROR_STATE: the world is not new.
+     *  KIRI_ERROR_MEMORY: start again. */
     replay(recording: Uint8Array, replay: Replay): ResultCode;
-    /** Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
-     *  KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
-     *  *size is 0, and nothing is written. Save after a later tick, or after World.finishCuts. */
+    /** Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+     *  KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (World.finishCuts); *size is 0. */
     save(): Uint8Array;
     /** Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
      *  events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
      *  World.tick. */
     finishCuts(): ResultCode;
-    /** Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may
-     *  give a strange world but cannot crash the program, and takes memory in proportion to its size, which is below
-     *  2^31. Arrays that the old world handed out live until the next tick. On failure nothing has changed:
-     *  KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. */
+    /** Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save cannot
+     *  crash the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live until the
+     *  next tick. On failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another version.
+     *  KIRI_ERROR_MEMORY. */
     load(bytes: Uint8Array): ResultCode;
     /** For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
      *  and exact to the bit. For this process only: never store or send the bytes. Arguments as of World.save. */
@@ -1327,36 +1284,36 @@ export class World {
     getEvents(): Rows<Event>;
     /** Gets the profile of the last tick that was not refused. */
     getProfile(into?: Profile): Profile;
-    /** Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
-     *  triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
-     *  def. */
+    /** Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+     *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     createSheet(def: SheetDefGiven): Sheet;
     /** Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
      *  columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
      *  kiriCreateSheet. */
     createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
-    /** Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model
-     *  is not KIRI_MODEL_LINKS. */
+    /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
-    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
-     *  does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
+    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does
+     *  not. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): { sheet: Sheet | null, hit: Hit };
-    /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
-     *  count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
-     *  together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending. */
+    /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+     *  KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+     *  pending. */
     detachPieces(frames: Frame[]): (Sheet | null)[];
-    /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
-     *  count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
-     *  together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending. */
+    /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+     *  KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+     *  pending. */
     destroyPieces(frames: Frame[]): ResultCode;
-    /** Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
+    /** A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in
+     *  the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while
+     *  it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all. */
     beginBlade(sheet?: Sheet | null): Blade;
-    /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-     *  KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
+    /** Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+     *  KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing). */
     createSeam(def: SeamDefGiven): Seam;
     /** Writes up to `capacity` ids of the world's seams; *count is how many there are. */
     getSeams(): Seam[];
-    /** Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
+    /** Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake. */
     createObstacle(def: ObstacleDefGiven): Obstacle;
     /** Draws the world as after the last tick, by functions of the host. Only reads the world, and takes no memory. */
     debugDraw(draw: DebugDrawGiven): ResultCode;
@@ -1366,19 +1323,17 @@ export class Sheet {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
-     *  triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
-     *  def. */
+    /** Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+     *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     destroy(): ResultCode;
-    /** Gets the current settings, stamped for Sheet.setSettings. */
+    /** Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+     *  come from Sheet.getSettings. It wakes if one differs. Motion, stiffness of pins and frames stay. */
     getSettings(into?: SheetSettings): SheetSettings;
-    /** Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
-     *  Sheet.getSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-     *  momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
+    /** Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+     *  come from Sheet.getSettings. It wakes if one differs. Motion, stiffness of pins and frames stay. */
     setSettings(settings: SheetSettingsGiven): ResultCode;
-    /** Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
-     *  cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
-     *  moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
+    /** Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+     *  KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
     addFold(fold: FoldGiven): number;
     /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
      *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
@@ -1390,47 +1345,40 @@ export class Sheet {
     getMesh(into?: Mesh): Mesh;
     /** Gets the changes since a revision; the whole mesh if the revision is too old, or 0. */
     getDirty(sinceRevision: number, into?: Dirty): Dirty;
-    /** Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
-     *  these. KIRI_ERROR_STATE: the sheet makes no normals. */
+    /** Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no
+     *  normals. */
     copyVertices(first: number, count: number, positions?: Float32Array | null, positionStride?: number, normals?: Float32Array | null, normalStride?: number): ResultCode;
-    /** Copies the index that each vertex had when the last call of World.tick began, for hosts that draw between two
-     *  ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
-     *  another gets the index of the other. The manual has the code (drawing). */
+    /** Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not exist.
+     *  *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual, drawing). */
     copyPrevious(first: number, count: number): { vertices: Int32Array, from: Sheet };
     /** Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more than 65535
      *  vertices. */
     copyIndices16(firstTriangle: number, count: number): Uint16Array;
-    /** Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def
-     *  that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of
-     *  its three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code
-     *  (meshes). */
+    /** Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+     *  floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes). */
     copySources(firstTriangle: number, count: number): Int32Array;
-    /** Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def
-     *  that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of
-     *  its three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code
-     *  (meshes). */
+    /** Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+     *  floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes). */
     copySourceWeights(firstTriangle: number, count: number): Float32Array;
     /** Makes the solid surface. thickness: m, 0: the material's thickness. */
     getSolid(thickness: number, into?: Solid): Solid;
     /** Gets the collision points: 3 floats of position (m, world) a point. */
     getCollisionPoints(): View<Float32Array>;
-    /** Gets the counts, at no cost. */
+    /** Get the counts, at no cost; sum the totals over the frames. */
     getCounts(into?: Counts): Counts;
-    /** Sums the totals over the frames. */
+    /** Get the counts, at no cost; sum the totals over the frames. */
     getTotals(into?: Totals): Totals;
-    /** Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
-     *  very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames
-     *  to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is
-     *  (accuracy). */
+    /** Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
+     *  frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy). */
     estimateError(): number;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     isAwake(): boolean;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     wake(): ResultCode;
-    /** Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes.
-     *  The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
-     *  Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order
-     *  of calls that set targets or move obstacles (sheets). Pending loads and contacts stay. */
+    /** Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
+     *  columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
+     *  pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual,
+     *  sheets). */
     transform(rotation: ArrayLike<number>, translation: ArrayLike<number>): ResultCode;
     /** Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
      *  centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
@@ -1444,14 +1392,14 @@ export class Sheet {
      *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
      *  both. */
     getUserData(): bigint;
-    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
-     *  does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
+    /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does
+     *  not. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): Hit;
     /** Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point. */
     getPoint(restPoint: ArrayLike<number>, into?: PointState): PointState;
-    /** Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
-     *  unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
-     *  KIRI_ERROR_ARGUMENT: the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+    /** Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
+     *  (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is
+     *  pending. */
     getWeights(restPoint: ArrayLike<number>): { frames: Frame[], weights: Float32Array, gradients: Float32Array };
     /** Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index. */
     getPiece(piece: number, into?: PieceState): PieceState;
@@ -1459,8 +1407,7 @@ export class Sheet {
     getPieceMesh(piece: number, into?: PieceMesh): PieceMesh;
     /** Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame. */
     getPieceFrames(piece: number): Frame[];
-    /** Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
-     *  the largest piece is pending to become a sheet, the largest of the others stays, too. */
+    /** Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number. */
     dropCrumbs(area: number): number;
     /** Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
      *  tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point. */
@@ -1482,29 +1429,25 @@ export class Sheet {
     applyImpulse(restPoint: ArrayLike<number>, impulse: ArrayLike<number>): ResultCode;
     /** Copies the wind; it blows until the next call. */
     setWind(wind: WindGiven): ResultCode;
-    /** Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
+    /** Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
+     *  outside. */
     createPin(def: PinDefGiven): Pin;
-    /** Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-     *  direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-     *  line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line
-     *  along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
-     *  material. */
+    /** Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+     *  hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+     *  along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
     clampLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
-    /** Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-     *  direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-     *  line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line
-     *  along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
-     *  material. */
+    /** Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+     *  hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+     *  along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
     hingeLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
     getPins(): Pin[];
-    /** Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
-     *  point, or rest point, and obstacle of an earlier one starts with the earlier impulse. */
+    /** Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its impulse. */
     setContacts(contacts: ContactGiven[]): ResultCode;
     /** Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on. */
     getContactForces(): Rows<ContactForce>;
-    /** Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in World.tick): a host needs no
-     *  obstacles or contacts outside. For moving obstacles add their own way. */
+    /** Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add their
+     *  way. */
     getReach(dt: number): { lower: Float32Array, upper: Float32Array };
 }
 
@@ -1538,25 +1481,26 @@ export class Frame {
     getPieceUserData(): bigint;
     /** Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame. */
     getPiece(): number;
-    /** Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
-     *  the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
-     *  the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
-     *  *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
-     *  tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting). */
+    /** Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay with
+     *  the old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut is
+     *  pending, or the budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and
+     *  KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet
+     *  (manual, cutting). */
     detachPiece(): Sheet | null;
-    /** Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
-     *  samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three
-     *  equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros. */
+    /** Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a
+     *  cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
     destroyPiece(): ResultCode;
-    /** Gets the current state. */
-    getState(into?: FrameState): FrameState;
-    /** Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
-     *  (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
-     *  Material of which held frames carry more than half moves through obstacles. */
+    /** Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
+     *  in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through
+     *  obstacles. */
     hold(position?: ArrayLike<number> | null, rotation?: ArrayLike<number> | null): ResultCode;
-    /** Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
-     *  means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a
-     *  free one. */
+    /** Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+     *  over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+     *  frame. */
+    getState(into?: FrameState): FrameState;
+    /** Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+     *  over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+     *  frame. */
     getReaction(): { force: Float64Array, torque: Float64Array };
     /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
     applyForce(force: ArrayLike<number>, torque: ArrayLike<number>): ResultCode;
@@ -1574,22 +1518,26 @@ export class Pin {
      *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
      *  both. */
     getUserData(): bigint;
-    /** Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
+    /** Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
+     *  outside. */
     destroy(): ResultCode;
-    /** Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
-     *  until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
-     *  surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm. */
+    /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+     *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT:
+     *  a point. */
     setTarget(target: ArrayLike<number>): ResultCode;
-    /** Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal.
-     *  On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point. */
+    /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+     *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT:
+     *  a point. */
     setPose(target: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
     /** Sets the force (N) that breaks a pin of any type; 0: it never breaks. */
     setBreakForce(breakForce: number): ResultCode;
-    /** Gets the current state. */
+    /** Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+     *  the last tick that moved it. At rest the sum of reactions is the weight. */
     getState(into?: PinState): PinState;
-    /** Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
-     *  last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
-     *  motion. */
+    /** Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+     *  the last tick that moved it. At rest the sum of reactions is the weight. */
     getReaction(): { force: Float64Array, torque: Float64Array };
 }
 
@@ -1597,7 +1545,7 @@ export class Obstacle {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
+    /** Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake. */
     destroy(): ResultCode;
     /** Teleports the obstacle (m, world). Sheets react to its velocity (Obstacle.setVelocity), not to the jump. */
     setPose(position: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
@@ -1632,13 +1580,14 @@ export class Seam {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-     *  KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
+    /** Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+     *  KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing). */
     destroy(): ResultCode;
-    /** Sets stiffness and restAngle, as in the def. */
+    /** Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+     *  KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing). */
     setHinge(stiffness: number, restAngle: number): ResultCode;
-    /** Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
+    /** Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index. */
     getStitch(index: number, into?: Stitch): Stitch;
-    /** Gets the number of stitches that are left. */
+    /** Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index. */
     getCount(): number;
 }

@@ -2507,15 +2507,6 @@ export class Frame extends Thing {
         return $result;
     }
 
-    getState(into = new FrameState()) {
-        const $world = pointer(this.world);
-        const $result = wasm.kiriFrame_GetState($world, this.id, scratch);
-        if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_GetState");
-        }
-        return readFrameState(into, scratch, this.world);
-    }
-
     hold(position = null, rotation = null) {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_Hold($world, this.id, position ? put("Float32Array", scratch, position, 3, "position") : 0, rotation ? put("Float32Array", scratch + 16, rotation, 9, "rotation") : 0);
@@ -2523,6 +2514,15 @@ export class Frame extends Thing {
             fail(this.world, $result, "kiriFrame_Hold");
         }
         return $result;
+    }
+
+    getState(into = new FrameState()) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriFrame_GetState($world, this.id, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriFrame_GetState");
+        }
+        return readFrameState(into, scratch, this.world);
     }
 
     getReaction() {

@@ -192,8 +192,8 @@ kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float fro
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);
 kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity, int32_t* count);
-kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
+kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
 kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3], const float torque[3]);
@@ -719,7 +719,8 @@ function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
+--- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
     C.kiriDefaultWorldDef(def)
@@ -739,16 +740,15 @@ function World:tick(dt, substeps)
     return result == 1
 end
 
---- Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
---- that only reads does not change the line, and logs its own. Valid until the next function that changes the world.
+--- Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one.
 function World:getLastError()
     local world = self
     return ffi.string(C.kiriWorld_GetLastError(world.c))
 end
 
---- Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
---- floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
---- keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+--- Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
+--- wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a
+--- float.
 function World:shiftOrigin(origin)
     local world = self
     local result = C.kiriWorld_ShiftOrigin(world.c, vector(1, origin, 3))
@@ -772,9 +772,7 @@ function World:setBudget(budget)
     return result == 1
 end
 
---- Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
---- same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
---- pending.
+--- Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual, budget).
 function World:getStateHash()
     local world = self
     local result = C.kiriWorld_GetStateHash(world.c, out.uint64_t)
@@ -792,8 +790,7 @@ function World:getSheets()
     return list_of(world, room.kiriSheet, out.int32_t[0], "Sheet")
 end
 
---- Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
---- replay stops there. The world does not change; without a recording nothing happens.
+--- Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops there.
 function World:note(bytes, count)
     local world = self
     count = count or #bytes
@@ -803,10 +800,10 @@ function World:note(bytes, count)
 end
 
 --- Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
---- host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
---- another result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
---- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
---- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
+--- host's. KIRI_PENDING: more calls follow. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
+--- result, other ids or another state; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: not a
+--- recording, damaged, cut short, or of another version. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY:
+--- start again.
 function World:replay(recording, replay, size)
     local world = self
     size = size or #recording
@@ -816,9 +813,8 @@ function World:replay(recording, replay, size)
     return result == 1
 end
 
---- Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
---- KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
---- *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.
+--- Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+--- KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.
 function World:save(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Save(world.c, bytes, capacity or 0, out.int64_t)
@@ -839,10 +835,10 @@ function World:finishCuts()
     return result == 1
 end
 
---- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give
---- a strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31.
---- Arrays that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA:
---- the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
+--- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save cannot
+--- crash the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live until the next
+--- tick. On failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another version.
+--- KIRI_ERROR_MEMORY.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes
@@ -890,9 +886,8 @@ function World:getProfile(profile)
     return profile
 end
 
---- Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
---- linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The
---- host chooses by its clock, so a replay must set the same budgets.
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
+--- limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
     if result < 0 then fail(nil, "kiriFitBudget", result, false) end
@@ -920,16 +915,16 @@ function kiri.getQuality(preset, quality)
     return quality
 end
 
---- Fills the def with its defaults, and stamps it. It has no mesh yet.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 function kiri.defaultSheetDef(def)
     def = def or new.kiriSheetDef()
     C.kiriDefaultSheetDef(def)
     return def
 end
 
---- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
---- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
---- def.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 function World:createSheet(def)
     local world = self
     local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -937,9 +932,8 @@ function World:createSheet(def)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
---- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
---- def.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 function Sheet:destroy()
     local world = self.world
     local result = C.kiriDestroySheet(world.c, self.id)
@@ -957,7 +951,8 @@ function World:createRectangle(width, height, columns, rows, def)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Gets the current settings, stamped for kiriSheet_SetSettings.
+--- Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+--- come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 function Sheet:getSettings(settings)
     local world = self.world
     settings = settings or new.kiriSheetSettings()
@@ -966,9 +961,8 @@ function Sheet:getSettings(settings)
     return settings
 end
 
---- Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
---- kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes
---- the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
+--- Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+--- come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 function Sheet:setSettings(settings)
     local world = self.world
     local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
@@ -976,8 +970,7 @@ function Sheet:setSettings(settings)
     return result == 1
 end
 
---- Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
---- not KIRI_MODEL_LINKS.
+--- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
 function World:createFoldedSheet(def, folds, count)
     local world = self
     folds, count = rows_of(folds, count, "kiriFold", 1)
@@ -986,9 +979,8 @@ function World:createFoldedSheet(def, folds, count)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
---- cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
---- moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+--- Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+--- KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
 function Sheet:addFold(fold)
     local world = self.world
     local result = C.kiriSheet_AddFold(world.c, self.id, struct_of(world, fold, "kiriFold"), out.int32_t)
@@ -1016,8 +1008,7 @@ function Sheet:setFold(index, stiffness, restAngle)
     return result == 1
 end
 
---- Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats
---- and 6 * columns * rows indices. columns and rows are 1 to 4096.
+--- Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices.
 function kiri.fillRectangle(width, height, columns, rows, restPositions, indices)
     restPositions = restPositions or ffi.new("float[?]", 2 * (columns + 1) * (rows + 1))
     indices = indices or ffi.new("int32_t[?]", 6 * columns * rows)
@@ -1045,8 +1036,7 @@ function Sheet:getDirty(sinceRevision, dirty)
     return dirty
 end
 
---- Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
---- these. KIRI_ERROR_STATE: the sheet makes no normals.
+--- Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals.
 function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride)
     local world = self.world
     local result = C.kiriSheet_CopyVertices(world.c, self.id, first, count, positions, positionStride, normals, normalStride)
@@ -1054,9 +1044,8 @@ function Sheet:copyVertices(first, count, positions, positionStride, normals, no
     return result == 1
 end
 
---- Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
---- ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
---- another gets the index of the other. The manual has the code (drawing).
+--- Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not exist.
+--- *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual, drawing).
 function Sheet:copyPrevious(first, count, vertices)
     local world = self.world
     vertices = vertices or ffi.new("int32_t[?]", count)
@@ -1074,9 +1063,8 @@ function Sheet:copyIndices16(firstTriangle, count, indices)
     return indices
 end
 
---- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
---- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+--- Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+--- floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes).
 function Sheet:copySources(firstTriangle, count, sources)
     local world = self.world
     sources = sources or ffi.new("int32_t[?]", count)
@@ -1085,9 +1073,8 @@ function Sheet:copySources(firstTriangle, count, sources)
     return sources
 end
 
---- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
---- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+--- Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+--- floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes).
 function Sheet:copySourceWeights(firstTriangle, count, weights)
     local world = self.world
     weights = weights or ffi.new("float[?]", 9 * count)
@@ -1114,7 +1101,7 @@ function Sheet:getCollisionPoints()
     return new.floatArray(out.floatRows[0], out.int32_t[0], 3, world.cell, now[world.cell])
 end
 
---- Gets the counts, at no cost.
+--- Get the counts, at no cost; sum the totals over the frames.
 function Sheet:getCounts(counts)
     local world = self.world
     counts = counts or new.kiriCounts()
@@ -1123,7 +1110,7 @@ function Sheet:getCounts(counts)
     return counts
 end
 
---- Sums the totals over the frames.
+--- Get the counts, at no cost; sum the totals over the frames.
 function Sheet:getTotals(totals)
     local world = self.world
     totals = totals or new.kiriTotals()
@@ -1132,9 +1119,8 @@ function Sheet:getTotals(totals)
     return totals
 end
 
---- Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
---- many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
---- KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
+--- Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
+--- to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
@@ -1160,10 +1146,9 @@ function Sheet:wake()
     return result == 1
 end
 
---- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
---- columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
---- pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
---- set targets or move obstacles (sheets). Pending loads and contacts stay.
+--- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
+--- of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
+--- clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
@@ -1254,8 +1239,7 @@ function Frame:getPieceUserData()
     return data
 end
 
---- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
---- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 function Sheet:raycast(origin, direction, maxDistance, hit)
     local world = self.world
     hit = hit or new.kiriHit()
@@ -1264,8 +1248,7 @@ function Sheet:raycast(origin, direction, maxDistance, hit)
     return hit
 end
 
---- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
---- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 function World:raycast(origin, direction, maxDistance, hit)
     local world = self
     hit = hit or new.kiriHit()
@@ -1284,9 +1267,8 @@ function Sheet:getPoint(restPoint, state)
     return state
 end
 
---- Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
---- null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT:
---- the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
+--- (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
@@ -1331,11 +1313,11 @@ function Frame:getPiece()
     return piece
 end
 
---- Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
---- the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
---- the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
---- *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
---- tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
+--- Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay with the
+--- old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut is pending, or
+--- the budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and
+--- KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet
+--- (manual, cutting).
 function Frame:detachPiece()
     local world = self.world
     local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
@@ -1343,9 +1325,8 @@ function Frame:detachPiece()
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
---- samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
---- corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+--- Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
+--- is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
 function Frame:destroyPiece()
     local world = self.world
     local result = C.kiriFrame_DestroyPiece(world.c, self.id)
@@ -1353,9 +1334,9 @@ function Frame:destroyPiece()
     return result == 1
 end
 
---- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
---- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
---- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+--- KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+--- pending.
 function World:detachPieces(frames, count)
     local world = self
     frames, count = ids_of(world, frames, count, "kiriFrame")
@@ -1365,9 +1346,9 @@ function World:detachPieces(frames, count)
     return list_of(world, detached, count, "Sheet", false)
 end
 
---- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
---- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
---- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+--- KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+--- pending.
 function World:destroyPieces(frames, count)
     local world = self
     frames, count = ids_of(world, frames, count, "kiriFrame")
@@ -1376,8 +1357,7 @@ function World:destroyPieces(frames, count)
     return result == 1
 end
 
---- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
---- the largest piece is pending to become a sheet, the largest of the others stays, too.
+--- Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number.
 function Sheet:dropCrumbs(area)
     local world = self.world
     local result = C.kiriSheet_DropCrumbs(world.c, self.id, area, out.int32_t)
@@ -1423,7 +1403,9 @@ function Sheet:slice(blade)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+--- A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
+--- material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is
+--- in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
 function World:beginBlade(sheet)
     local world = self
     local result = C.kiriBeginBlade(world.c, id_of(world, sheet, "Sheet"), out.Blade)
@@ -1466,7 +1448,18 @@ function Sheet:getFrames()
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame")
 end
 
---- Gets the current state.
+--- Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
+--- in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+function Frame:hold(position, rotation)
+    local world = self.world
+    local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
+    if result < 0 then fail(world, "kiriFrame_Hold", result, true) end
+    return result == 1
+end
+
+--- Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+--- frame.
 function Frame:getState(state)
     local world = self.world
     state = state or new.kiriFrameState()
@@ -1475,18 +1468,9 @@ function Frame:getState(state)
     return state
 end
 
---- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
---- (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
---- Material of which held frames carry more than half moves through obstacles.
-function Frame:hold(position, rotation)
-    local world = self.world
-    local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
-    if result < 0 then fail(world, "kiriFrame_Hold", result, true) end
-    return result == 1
-end
-
---- Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
---- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
+--- Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+--- frame.
 function Frame:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1546,14 +1530,14 @@ function Sheet:setWind(wind)
     return result == 1
 end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 function kiri.defaultPinDef(def)
     def = def or new.kiriPinDef()
     C.kiriDefaultPinDef(def)
     return def
 end
 
---- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 function Sheet:createPin(def)
     local world = self.world
     local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
@@ -1561,7 +1545,7 @@ function Sheet:createPin(def)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 function Pin:destroy()
     local world = self.world
     local result = C.kiriDestroyPin(world.c, self.id)
@@ -1569,11 +1553,9 @@ function Pin:destroy()
     return result == 1
 end
 
---- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
---- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
---- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
---- material.
+--- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+--- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+--- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1581,11 +1563,9 @@ function Sheet:clampLine(from, to)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
---- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
---- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
---- material.
+--- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+--- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+--- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1593,9 +1573,9 @@ function Sheet:hingeLine(from, to)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
---- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
---- surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
+--- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+--- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
@@ -1603,8 +1583,9 @@ function Pin:setTarget(target)
     return result == 1
 end
 
---- Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On
---- a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
+--- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+--- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 function Pin:setPose(target, rotation)
     local world = self.world
     local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))
@@ -1620,7 +1601,8 @@ function Pin:setBreakForce(breakForce)
     return result == 1
 end
 
---- Gets the current state.
+--- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+--- the last tick that moved it. At rest the sum of reactions is the weight.
 function Pin:getState(state)
     local world = self.world
     state = state or new.kiriPinStateView()
@@ -1630,9 +1612,8 @@ function Pin:getState(state)
     return state
 end
 
---- Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
---- last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
---- motion.
+--- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+--- the last tick that moved it. At rest the sum of reactions is the weight.
 function Pin:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1651,15 +1632,16 @@ function Sheet:getPins()
     return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
 end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 function kiri.defaultSeamDef(def)
     def = def or new.kiriSeamDef()
     C.kiriDefaultSeamDef(def)
     return def
 end
 
---- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 function World:createSeam(def)
     local world = self
     local result = C.kiriCreateSeam(world.c, struct_of(world, def, "kiriSeamDef"), out.Seam)
@@ -1667,8 +1649,8 @@ function World:createSeam(def)
     return handle(world, out.Seam[0], "Seam")
 end
 
---- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 function Seam:destroy()
     local world = self.world
     local result = C.kiriDestroySeam(world.c, self.id)
@@ -1676,7 +1658,8 @@ function Seam:destroy()
     return result == 1
 end
 
---- Sets stiffness and restAngle, as in the def.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 function Seam:setHinge(stiffness, restAngle)
     local world = self.world
     local result = C.kiriSeam_SetHinge(world.c, self.id, stiffness, restAngle)
@@ -1684,7 +1667,7 @@ function Seam:setHinge(stiffness, restAngle)
     return result == 1
 end
 
---- Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+--- Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 function Seam:getStitch(index, stitch)
     local world = self.world
     stitch = stitch or new.kiriStitchView()
@@ -1694,7 +1677,7 @@ function Seam:getStitch(index, stitch)
     return stitch
 end
 
---- Gets the number of stitches that are left.
+--- Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 function Seam:getCount()
     local world = self.world
     local result = C.kiriSeam_GetCount(world.c, self.id, out.int32_t)
@@ -1712,8 +1695,7 @@ function World:getSeams()
     return list_of(world, room.kiriSeam, out.int32_t[0], "Seam")
 end
 
---- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
---- point, or rest point, and obstacle of an earlier one starts with the earlier impulse.
+--- Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its impulse.
 function Sheet:setContacts(contacts, count)
     local world = self.world
     contacts, count = rows_of(contacts, count, "kiriContact", 1)
@@ -1730,14 +1712,14 @@ function Sheet:getContactForces()
     return new.kiriContactForceArray(out.kiriContactForceRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 function kiri.defaultObstacleDef(def)
     def = def or new.kiriObstacleDef()
     C.kiriDefaultObstacleDef(def)
     return def
 end
 
---- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 function World:createObstacle(def)
     local world = self
     local result = C.kiriCreateObstacle(world.c, struct_of(world, def, "kiriObstacleDef"), out.Obstacle)
@@ -1745,7 +1727,7 @@ function World:createObstacle(def)
     return handle(world, out.Obstacle[0], "Obstacle")
 end
 
---- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 function Obstacle:destroy()
     local world = self.world
     local result = C.kiriDestroyObstacle(world.c, self.id)
@@ -1794,8 +1776,7 @@ function Obstacle:getState(state)
     return state
 end
 
---- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
---- no obstacles or contacts outside. For moving obstacles add their own way.
+--- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add their way.
 function Sheet:getReach(dt, lower, upper)
     local world = self.world
     lower = lower or ffi.new("float[?]", 3)

@@ -1,16 +1,13 @@
-/* Kiri: cuts thin sheets while they move, inside a game's fixed tick. The method is of "Interactive Detailed Cutting of
-   Thin Sheets" (Manteaux and others, Motion in Games 2015). samples/manual has the manual. Conventions:
+/* Kiri: cuts thin sheets while they move, inside a game's fixed tick. samples/manual has the manual. Conventions:
 
    - Units are SI: metres, kilograms, seconds, newtons, pascals, radians.
-   - World coordinates are right-handed, and no axis is up: gravity points down. The manual has hosts with y up and
-     left-handed hosts (drawing).
+   - World coordinates are right-handed, and no axis is up: gravity points down (manual, drawing).
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A rotation is 9 floats, column after column.
    - A negative kiriResult is a failure: the world is as before the call, and kiriWorld_GetLastError() says why.
    - Sheets, cuts, frames, pins, obstacles, blades and seams are 32-bit ids. 0 is never a valid id. A stale id, or the id of
      another kind, gives KIRI_ERROR_ID.
-   - The library owns the arrays that it returns. They stay unchanged until the next kiriWorld_Tick or kiriDestroyWorld,
-     whatever is called in between.
+   - Arrays that the library returns stay unchanged until the next kiriWorld_Tick or kiriDestroyWorld.
    - Threads: functions that take a const kiriWorld only read it. Any number of threads may call them at the same time,
      while no other function runs on that world. Two worlds share nothing. The library starts no thread. */
 
@@ -74,30 +71,27 @@ KIRI_API const char* kiriGetResultText(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
-/* Functions of the host. They may call other worlds, and functions that take no world. While a function that takes a
-   world without const runs, they may call kiriWorld_GetLastError alone of the same world; while one runs that takes a
-   const kiriWorld, functions that do so, too. Other calls give KIRI_ERROR_STATE (manual, budget). */
+/* Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError alone, or in a function
+   that takes a const kiriWorld also functions that do so. Other calls give KIRI_ERROR_STATE (manual, budget). */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
 typedef void kiriRecordFn(void* user, const void* bytes, int32_t count); /* the next bytes of the recording */
 
-/* For hosts that lend their threads to a tick. `start` calls the task, from any threads, for ranges of at least
-   minRange items that cover the items 0 to itemCount, each once. It returns a handle; `finish` returns when all these
-   calls have returned. `start` may make all calls itself and return null (manual, budget). */
+/* For hosts that lend threads to a tick. `start` calls the task for ranges of minRange items or more that cover the
+   items 0 to itemCount, each once, and returns a handle; `finish` returns after these calls (manual, budget). */
 typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the items from start up to, without, end */
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
 /* Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using 30
-   % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect depends
-   on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for bit. The
-   manual has examples, single steps that exceed a limit, and the order of turns (budget). */
+   % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes effect;
+   the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual, budget). */
 typedef struct kiriBudget {
-    int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
-    int32_t cells;     /* visited, or with a new distance: grid, regions, shape functions. A link counts as a cell */
-    int32_t samples;   /* vertices and collision points with new weights, and the cost of the commit, paid before it */
+    int32_t triangles;  /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
+    int32_t cells;      /* visited, or with a new distance: grid, regions, shape functions. A link counts as a cell */
+    int32_t samples;    /* vertices and collision points with new weights, and the cost of the commit, paid before it */
     int32_t iterations; /* linear systems, 30 to 60 us each; a large one counts as several (manual, budget) */
 } kiriBudget;
 
@@ -114,18 +108,15 @@ typedef struct kiriWorldDef {
     kiriClockFn* clock;         /* null: the profile has counts, and no times */
     kiriStartTaskFn* startTask; /* null: a tick runs in the calling thread alone. Set both or none. */
     kiriFinishTaskFn* finishTask;
-    int32_t workerCount; /* threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks */
-    void* user;      /* passed to the functions above */
-    kiriRecordFn* record;    /* receives the recording of the world, see kiriWorld_Replay; null: no recording */
+    int32_t workerCount;  /* threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks */
+    void* user;           /* passed to the functions above */
+    kiriRecordFn* record; /* receives the recording of the world, see kiriWorld_Replay; null: no recording */
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
 } kiriWorldDef;
 
-/* Fills the def with its defaults, and stamps it. */
+/* Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
+   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
-
-/* Creates an empty world. On failure *world is null, and the log of the def gets the line; a def that was not filled
-   has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler contracted or reordered float operations, or this
-   thread flushes small floats to zero or does not round to nearest (manual, budget). */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all its content. Null is allowed. */
@@ -138,21 +129,18 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
    frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
-/* Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function that
-   only reads does not change the line, and logs its own. Valid until the next function that changes the world. */
+/* Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one. */
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
-/* Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
-   floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays keep
-   the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
+/* Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing wakes.
+   Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
 KIRI_API kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
 
 /* Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 
-/* Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the same
-   hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is pending. */
+/* Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual, budget). */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 
 /* Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are. */
@@ -160,14 +148,12 @@ KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheet
 
 /* ---- Recording -------------------------------------------------------------------------------------------------- */
 
-/* A recording stores each call that changes a world, with arguments, result and new ids; also the call that crashed.
-   The same bytes give the same run, bit for bit, on any machine, with the same version of the library. The recording is
-   all bytes that `record` of the world def received, in order. The manual has sizes (budget). */
+/* A recording stores each call that changes a world, with its result. The same bytes give the same run, bit for bit, on
+   any machine with the same version of the library. It is all bytes that `record` received, in order. */
 
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
 
-/* Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A replay
-   stops there. The world does not change; without a recording nothing happens. */
+/* Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops there. */
 KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 
 /* Progress of a replay. Set all fields to zero before the first call. */
@@ -180,31 +166,27 @@ typedef struct kiriReplay {
 } kiriReplay;
 
 /* Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the host's.
-   KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
-   result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
-   KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
-   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. */
+   KIRI_PENDING: more calls follow. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another result, other
+   ids or another state; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: not a recording,
+   damaged, cut short, or of another version. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: start again. */
 KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 
 /* ---- Save and load ---------------------------------------------------------------------------------------------- */
 
-/* A save has what cannot be made again: mesh, frames, cuts that wait, pins, obstacles, blades, ids, events. A loaded
-   world goes on as the saved one, bit for bit, and ids name the same things: on any machine, with the same version of
-   the library. Only a budget tells them apart: a later cut may take effect in another tick. */
+/* A save has all that cannot be made again. A loaded world goes on as the saved one, bit for bit, with the same ids, on
+   any machine with the same version. Only with a budget a later cut may take effect in another tick. */
 
-/* Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
-   KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on; *size
-   is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts. */
+/* Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+   KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0. */
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
 /* Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the events.
    Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick. */
 KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 
-/* Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give a
-   strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Arrays
-   that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes
-   are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. */
+/* Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save cannot crash
+   the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live until the next tick. On
+   failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another version. KIRI_ERROR_MEMORY. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save, and
@@ -219,28 +201,28 @@ KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64
 
 /* Events since the start of the last tick that was not refused. */
 enum kiriEventType {
-    KIRI_EVENT_CUT_FINISHED = 1,  /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,     /* frame (its first, which names it), crumb, area: a connected part came off */
-    KIRI_EVENT_FRAME_ADDED = 3,   /* frame */
-    KIRI_EVENT_DIVERGED = 4,      /* the sheet was stopped */
-    KIRI_EVENT_DEFERRED = 5,      /* stage, waiting: the budget ended in this stage of the sheet's work */
-    KIRI_EVENT_PIN_BROKE = 6,     /* pin: its force exceeded breakForce; the id is stale from now on */
+    KIRI_EVENT_CUT_FINISHED = 1,   /* cut: all of it is in the mesh; the id is stale from now on */
+    KIRI_EVENT_PIECE_OFF = 2,      /* frame (its first, which names it), crumb, area: a connected part came off */
+    KIRI_EVENT_FRAME_ADDED = 3,    /* frame */
+    KIRI_EVENT_DIVERGED = 4,       /* the sheet was stopped */
+    KIRI_EVENT_DEFERRED = 5,       /* stage, waiting: the budget ended in this stage of the sheet's work */
+    KIRI_EVENT_PIN_BROKE = 6,      /* pin: its force exceeded breakForce; the id is stale from now on */
     KIRI_EVENT_PIECE_DETACHED = 7, /* sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done */
-    KIRI_EVENT_SEAM_BROKE = 8 /* seam, stitches: some stitches broke; with none left the id is stale from now on */
+    KIRI_EVENT_SEAM_BROKE = 8      /* seam, stitches: some stitches broke; with none left the id is stale from now on */
 };
 
 /* An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1. */
 typedef struct kiriEvent {
     int32_t type; /* KIRI_EVENT_... */
     kiriSheet sheet;
-    kiriCut cut;     /* 0: none */
-    kiriFrame frame; /* 0: none */
-    kiriPin pin;     /* 0: none */
-    int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
-    float area;      /* m^2 of the piece, or 0 */
-    int32_t stage;   /* KIRI_STAGE_..., or -1 */
-    int32_t waiting; /* points and ends of cuts that are pending or in work; or 0 */
-    kiriSeam seam;   /* 0: none */
+    kiriCut cut;      /* 0: none */
+    kiriFrame frame;  /* 0: none */
+    kiriPin pin;      /* 0: none */
+    int32_t crumb;    /* 1: the piece is a crumb, see kiriSheetDef */
+    float area;       /* m^2 of the piece, or 0 */
+    int32_t stage;    /* KIRI_STAGE_..., or -1 */
+    int32_t waiting;  /* points and ends of cuts that are pending or in work; or 0 */
+    kiriSeam seam;    /* 0: none */
     int32_t stitches; /* that the seam has left, or 0 */
 } kiriEvent;
 
@@ -267,13 +249,12 @@ typedef struct kiriProfile {
     int32_t cutSegments;              /* blade segments that took effect */
     /* Items in the units of kiriBudget. An item that takes more work counts more than once. */
     int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
-    /* Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
-       points with other weights, links that differ. kiriSheet_GetCounts has the totals. */
+    /* Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
-    int32_t commits; /* sheets in which a cut took effect */
+    int32_t commits;       /* sheets in which a cut took effect */
     int32_t systemsSolved; /* linear systems, large and small */
-    int32_t contacts;   /* planes given to the solver: by the host, by obstacles, and between sheets */
-    int32_t sheetPairs; /* pairs of sheets or pieces that are near each other and not both asleep */
+    int32_t contacts;      /* planes given to the solver: by the host, by obstacles, and between sheets */
+    int32_t sheetPairs;    /* pairs of sheets or pieces that are near each other and not both asleep */
     /* The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m. */
     double largestJump, largestFade;
 } kiriProfile;
@@ -281,9 +262,8 @@ typedef struct kiriProfile {
 /* Gets the profile of the last tick that was not refused. */
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
-/* Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
-   linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The host
-   chooses by its clock, so a replay must set the same budgets. */
+/* Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
+   limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets. */
 KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* Returns the name of a stage; "" for another number. */
@@ -336,16 +316,13 @@ KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 enum kiriModel {
     /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     KIRI_MODEL_LINKS = 0,
-    /* Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
-       takes about three times as long. From 1e8 Pa on use 8 `iterations`. */
+    /* Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets). */
     KIRI_MODEL_AFFINE = 1,
-    /* Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
-       thinner the sheet, the less it bends; the manual has figures (accuracy). */
+    /* Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy). */
     KIRI_MODEL_POINTS = 2
 };
 
-/* The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
-   the motion only where something touches or holds the sheet. Collision points stay on the linear surface. */
+/* The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
@@ -353,8 +330,7 @@ enum kiriSkinning {
 
 /* Integration in time. Both solve one linear system an iteration. */
 enum kiriTimeStepping {
-    /* TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new
-       or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy). */
+    /* TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler. */
     KIRI_TIME_STEPPING_SECOND_ORDER = 0,
     /* Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
     KIRI_TIME_STEPPING_EULER = 1
@@ -384,26 +360,21 @@ typedef struct kiriSheetDef {
     float position[3], axisU[3], axisV[3], velocity[3];
     kiriMaterial material;
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
-    float snapDistance; /* m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not.
-                           0: 1e-4 of the longer side. The manual has more (cutting) */
-    /* Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-       without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
-    float weldDistance;
+    float snapDistance;     /* m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side */
+    float weldDistance;     /* m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-       frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
-       cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
-       sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. */
+       frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
+       frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). */
     int32_t frameCount; /* 0, or 1 and more; default 5 */
     float frameLength;  /* m; used where frameCount is 0; default 0 */
     float accuracy;     /* 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
     const float* framePoints;
     int32_t maxFrames; /* re-sampling stops here; default 256 */
-    /* Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
-       (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a
-       frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). */
+    /* Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+       beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). */
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
-    float crumbArea; /* m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
+    float crumbArea;   /* m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     float friction; /* of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     float contactThickness; /* m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default):
                                the material's thickness, at least a 20th of a grid square */
@@ -413,25 +384,19 @@ typedef struct kiriSheetDef {
     int32_t touchesSheets, selfContact;
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
-    /* A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
-       and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
-    float sleepSpeed;
-    int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
-    int32_t skinning; /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
-    /* 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
-       across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0. */
-    int32_t planar;
+    float sleepSpeed;   /* m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
+    int32_t model;      /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
+    int32_t skinning;   /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    int32_t planar;     /* 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     int32_t timeStepping; /* KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
-    float fadeTime; /* s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */
+    float fadeTime;  /* s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */
     int32_t normals; /* 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     kiriPaperOptions paper; /* default: all off */
 } kiriSheetDef;
 
-/* Fills the def with its defaults, and stamps it. It has no mesh yet. */
+/* Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+   failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
-
-/* Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
-   do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
@@ -454,37 +419,29 @@ typedef struct kiriSheetSettings {
     int32_t normals;
 } kiriSheetSettings;
 
-/* Gets the current settings, stamped for kiriSheet_SetSettings. */
+/* Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not come
+   from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay. */
 KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
-
-/* Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
-   kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-   momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
 KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 
-/* A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one piece,
-   and each side of the line has its own control frames. Lines may end in the material, meet and cross; two lines in
-   one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding). */
+/* A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and each side has its own
+   frames. Lines may end in the material, meet and cross; cuts go through or along them (manual, folding). */
 typedef struct kiriFold {
     float from[2], to[2]; /* m */
     float stiffness;      /* N m/rad per metre of the line, 0 or more; 0: a free hinge */
     float restAngle;      /* rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
-    float yieldMoment;    /* N m per metre: most that it carries, and more with the material's hardening; an angle beyond
-                             stays. 0: no limit. Only in a material with a yieldStress */
+    float yieldMoment;    /* N m per metre: it bends for good beyond, with a yieldStress. 0: no limit */
 } kiriFold;
 
-/* Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is not
-   KIRI_MODEL_LINKS. */
+/* Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
 KIRI_API kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds,
                                           int32_t count, kiriSheet* sheet);
 
-/* Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of cuts,
-   until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and moves to its
-   rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
+/* Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+   KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
 KIRI_API kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* fold, int32_t* index);
 
-/* A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are joined:
-   0 where all of it is cut, or inside one region. */
+/* A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides: not cut, nor rigid. */
 typedef struct kiriFoldState {
     kiriFold fold;
     double angle, length;
@@ -496,14 +453,12 @@ KIRI_API kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, i
 KIRI_API kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness,
                                       float restAngle);
 
-/* Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
-   6 * columns * rows indices. columns and rows are 1 to 4096. */
+/* Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                                       int32_t* indices);
 
-/* The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision grows
-   when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights have the
-   precision of the library, 2^-29 of the sheet. */
+/* The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when indices or
+   vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */
@@ -523,8 +478,7 @@ typedef struct kiriRange {
     int32_t first, count;
 } kiriRange;
 
-/* Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick. Other
-   data of a vertex, and the corners of a triangle, change only in these ranges. */
+/* Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change in every tick. */
 typedef struct kiriDirty {
     kiriRange newVertices, newTriangles; /* up to the last one of the mesh */
     kiriRange oldVertices, oldTriangles; /* the smallest ranges that hold all older ones with other data */
@@ -535,15 +489,13 @@ typedef struct kiriDirty {
 KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision,
                                        kiriDirty* dirty);
 
-/* Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
-   these. KIRI_ERROR_STATE: the sheet makes no normals. */
+/* Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals. */
 KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);
 
-/* Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
-   ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from another
-   gets the index of the other. The manual has the code (drawing). */
+/* Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not exist.
+   *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual, drawing). */
 KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            int32_t* vertices, kiriSheet* from);
 
@@ -551,9 +503,8 @@ KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
-   contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its three
-   corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes). */
+/* Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9 floats
+   each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes). */
 KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                           int32_t* sources);
 KIRI_API kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
@@ -583,31 +534,27 @@ typedef struct kiriCounts {
     int32_t vertices, triangles, cells, frames, links, pieces, collisionPoints;
 } kiriCounts;
 
-/* Gets the counts, at no cost. */
-KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
-
 /* m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s. */
 typedef struct kiriTotals {
     double area, mass, kineticEnergy, elasticEnergy;
     double center[3], momentum[3], angularMomentum[3];
 } kiriTotals;
 
-/* Sums the totals over the frames. */
+/* Get the counts, at no cost; sum the totals over the frames. */
+KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
-/* Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
-   many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
-   KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy). */
+/* Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames to
+   tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy). */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
 /* Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all. */
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
-/* Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
-   columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
-   pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that set
-   targets or move obstacles (sheets). Pending loads and contacts stay. */
+/* Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns of
+   `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins, clamps,
+   hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets). */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -636,8 +583,7 @@ typedef struct kiriHit {
     int32_t triangle;   /* -1: none */
 } kiriHit;
 
-/* Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it
-   does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
+/* Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not. */
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
 KIRI_API kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3],
@@ -654,21 +600,19 @@ typedef struct kiriPointState {
 KIRI_API kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                        kiriPointState* state);
 
-/* Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
-   null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: the
-   point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+/* Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients (2
+   floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
 
 /* ---- Piece ------------------------------------------------------------------------------------------------------ */
 
-/* A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
-   change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending work has
-   not separated anything yet. Momentum is about the world's origin. */
+/* A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces, and change when a
+   piece comes off or goes (kiriFrame_GetPiece). Cuts with pending work have separated nothing yet. */
 typedef struct kiriPieceState {
     double area, mass;                                    /* m^2, kg */
-    double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
+    double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s, kg m^2/s about the origin */
     float lower[3], upper[3];                             /* m, world: the smallest box around its vertices */
     int32_t frames, vertices, triangles, collisionPoints; /* counts */
     int32_t crumb;                                        /* 1: see kiriSheetDef */
@@ -693,27 +637,23 @@ KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, 
                                              int32_t* count);
 KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
-/* Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and the
-   motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in the new
-   sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
-   0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
-   KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting). */
+/* Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay with the old
+   sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut is pending, or the
+   budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and KIRI_EVENT_PIECE_DETACHED
+   names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet (manual, cutting). */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
-   samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
-   corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros. */
+/* Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut is
+   pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
-/* Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
-   once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet together.
-   detached[i] is the sheet made of the piece of frames[i], 0 where it is pending. */
+/* Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none. KIRI_PENDING:
+   some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0: pending. */
 KIRI_API kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count,
                                            kiriSheet* detached);
 KIRI_API kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count);
 
-/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If the
-   largest piece is pending to become a sheet, the largest of the others stays, too. */
+/* Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number. */
 KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
@@ -733,12 +673,9 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 
-/* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
-   each layer that it is in, where it was, and cuts on from there, whatever the sheet did in between. Move it at least
-   once a tick while it is in a sheet. The next tick makes these cuts; with a budget, a later tick may. A blade has a
-   cut for each layer, which KIRI_EVENT_CUT_FINISHED reports. The manual has borders and loops (cutting). */
-
-/* Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
+/* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
+   material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is in a
+   sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all. */
 KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 
 /* Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
@@ -768,16 +705,13 @@ typedef struct kiriFrameState {
 KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
                                         int32_t* count);
 
-/* Gets the current state. */
-KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
-
-/* Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (columns
-   as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it. Material of
-   which held frames carry more than half moves through obstacles. */
+/* Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
+   the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
-/* Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
-   over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one. */
+/* Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means over
+   the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free frame. */
+KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
 
 /* ---- Load ------------------------------------------------------------------------------------------------------- */
@@ -804,9 +738,8 @@ KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, f
 KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                            const float impulse[3]);
 
-/* Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
-   square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
-   constant wind, and still air (zero velocity) resists. */
+/* Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density /
+   2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind. */
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; air: 1.2 */
@@ -821,37 +754,32 @@ KIRI_API kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const k
 /* A pin holds a point of the material at its target by a spring. */
 typedef struct kiriPinDef {
     uint32_t cookie;
-    float restPoint[2];    /* m, in the material */
-    float target[3];       /* m, world */
-    float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
-    float breakForce;      /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
-    kiriObstacle obstacle; /* 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
+    float restPoint[2]; /* m, in the material */
+    float target[3];    /* m, world */
+    float stiffness;    /* N/m; 0: ten times Young's modulus times thickness */
+    float breakForce;   /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
+    kiriObstacle
+        obstacle; /* 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
                               yields by its mass. If it is destroyed the target stays */
 } kiriPinDef;
 
-/* Fills the def with its defaults, and stamps it. */
+/* Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside. */
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
-
-/* Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
-/* Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
-   of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is straight,
-   with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a cut holds both
-   lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
+/* Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+   hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+   along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* hinge);
 
-/* Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-   the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
-   surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm. */
+/* Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+   (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+   moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
-
-/* Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
-   planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point. */
 KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
 
 /* Sets the force (N) that breaks a pin of any type; 0: it never breaks. */
@@ -871,11 +799,9 @@ typedef struct kiriPinState {
     kiriObstacle obstacle; /* that the target moves with; 0: none */
 } kiriPinState;
 
-/* Gets the current state. */
+/* Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
+   last tick that moved it. At rest the sum of reactions is the weight. */
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
-
-/* Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
-   tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in motion. */
 KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 
 /* Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
@@ -884,47 +810,40 @@ KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, k
 
 /* ---- Seam ------------------------------------------------------------------------------------------------------- */
 
-/* A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided into
-   the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go through
-   a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of them. The
-   manual has lines, hinges and breaking (sewing). */
+/* A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
+   stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
+   stitches. It ends with the piece of one of its points (manual, sewing). */
 typedef struct kiriSeamDef {
     uint32_t cookie;
-    kiriSheet sheetA, sheetB;   /* of the same model, and not planar */
-    const float* lineA;         /* 2 floats a point, m, in the material, such as its edge; copied */
+    kiriSheet sheetA, sheetB; /* of the same model, and not planar */
+    const float* lineA;       /* 2 floats a point, m, in the material, such as its edge; copied */
     const float* lineB;
-    int32_t countA, countB;     /* points: 2 to 65536 */
-    int32_t stitches;           /* 2 to 4096; 0 (default): three for two distances of frames */
-    float stiffness; /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
-    float restAngle; /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
-    float breakForce;           /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    int32_t countA, countB; /* points: 2 to 65536 */
+    int32_t stitches;       /* 2 to 4096; 0 (default): three for two distances of frames */
+    float stiffness;  /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
+    float restAngle;  /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
+    float breakForce; /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
 } kiriSeamDef;
 
-/* Fills the def with its defaults, and stamps it. */
+/* Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+   KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing). */
 KIRI_API void kiriDefaultSeamDef(kiriSeamDef* def);
-
-/* Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-   KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ. */
 KIRI_API kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
 KIRI_API kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+KIRI_API kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle);
 
 /* A stitch, as after the last tick. */
 typedef struct kiriStitch {
     kiriSheet sheetA, sheetB;
     float restA[2], restB[2]; /* m, in the material */
     float position[3];        /* m, world: where both points meet. A host that welds the drawn lips puts them there */
-    float gap;                /* m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
-    float force[3];           /* N, on sheet A: mean over the last tick that moved it */
-    float angle;              /* rad, as restAngle */
+    float gap;      /* m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
+    float force[3]; /* N, on sheet A: mean over the last tick that moved it */
+    float angle;    /* rad, as restAngle */
 } kiriStitch;
 
-/* Sets stiffness and restAngle, as in the def. */
-KIRI_API kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle);
-
-/* Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
+/* Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index. */
 KIRI_API kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
-
-/* Gets the number of stitches that are left. */
 KIRI_API kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
 
 /* Writes up to `capacity` ids of the world's seams; *count is how many there are. */
@@ -932,9 +851,8 @@ KIRI_API kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, 
 
 /* ---- Contact ---------------------------------------------------------------------------------------------------- */
 
-/* A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
-   Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-   sheet. A contact that the point does not reach in the tick costs little and does nothing. */
+/* A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, with
+   Coulomb friction. The host computes planes from the visible surface for each tick. Planes out of reach do nothing. */
 typedef struct kiriContact {
     int32_t point;      /* index of the collision point; -1: restPoint names the point */
     float restPoint[2]; /* m, in the material; read only where point is -1 */
@@ -947,8 +865,7 @@ typedef struct kiriContact {
     int32_t obstacle;   /* a number of the host. Contacts with one number press on one obstacle, and share its mass */
 } kiriContact;
 
-/* Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
-   or rest point, and obstacle of an earlier one starts with the earlier impulse. */
+/* Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its impulse. */
 KIRI_API kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts,
                                           int32_t count);
 
@@ -966,17 +883,15 @@ KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet
 
 /* ---- Obstacle --------------------------------------------------------------------------------------------------- */
 
-/* A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do not
-   move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-   kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m. */
+/* A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities alone: set pose
+   and velocity before a tick, and apply the impulse of its state after it (manual, contact). Lengths: up to 1e6 m. */
 enum kiriObstacleType {
     KIRI_OBSTACLE_PLANE,    /* all below the plane through its position; the third column of its rotation points out */
     KIRI_OBSTACLE_SPHERE,   /* radius */
     KIRI_OBSTACLE_CAPSULE,  /* radius, height: of its axis, the third column, between the middles of its round ends */
     KIRI_OBSTACLE_BOX,      /* size: lengths of its edges along the columns of its rotation */
     KIRI_OBSTACLE_CYLINDER, /* radius, height: along the third column */
-    KIRI_OBSTACLE_PRISM     /* outline: a convex polygon in the plane of the first two columns; height: along the third,
-                               0: without end */
+    KIRI_OBSTACLE_PRISM /* outline: convex, in the plane of the first two columns; height along the third, 0: endless */
 };
 
 /* An obstacle: its shape, pose, motion, and mass. */
@@ -1003,10 +918,8 @@ typedef struct kiriObstacleDef {
     uint32_t groups; /* see the sheet def. Default: all */
 } kiriObstacleDef;
 
-/* Fills the def with its defaults, and stamps it. */
+/* Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake. */
 KIRI_API void kiriDefaultObstacleDef(kiriObstacleDef* def);
-
-/* Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
 KIRI_API kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
 KIRI_API kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
 
@@ -1025,14 +938,13 @@ KIRI_API kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle
 typedef struct kiriObstacleState {
     float position[3], rotation[9], velocity[3], angularVelocity[3];
     double impulse[3], angularImpulse[3]; /* N s, N m s about its centre of mass: of sheets and pins in the last tick */
-    int32_t contacts;      /* that pushed in the last tick */
+    int32_t contacts;                     /* that pushed in the last tick */
 } kiriObstacleState;
 
 /* Gets the current state. */
 KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
 
-/* Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs no
-   obstacles or contacts outside. For moving obstacles add their own way. */
+/* Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add their way. */
 KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3],
                                        float upper[3]);
 

@@ -358,9 +358,8 @@ namespace Kiri
         }
     }
 
-    /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-    /// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and
-    /// sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
+    /// <summary>The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when
+    /// indices or vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet.</summary>
     public unsafe struct MeshView
     {
         readonly World world;
@@ -498,9 +497,9 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because
-        /// of floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned
-        /// arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.</summary>
+        /// <summary>Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
+        /// wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not
+        /// fit a float.</summary>
         public void ShiftOrigin(Float3 origin)
         {
             Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin));
@@ -518,9 +517,8 @@ namespace Kiri
             Check(Native.kiriWorld_SetBudget(Handle, &budget));
         }
 
-        /// <summary>Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
-        /// the same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work
-        /// is pending.</summary>
+        /// <summary>Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual,
+        /// budget).</summary>
         public ulong GetStateHash()
         {
             ulong hashValue = 0;
@@ -547,8 +545,8 @@ namespace Kiri
             return sheets;
         }
 
-        /// <summary>Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
-        /// replay stops there. The world does not change; without a recording nothing happens.</summary>
+        /// <summary>Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops
+        /// there.</summary>
         public void Note(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -557,9 +555,8 @@ namespace Kiri
             }
         }
 
-        /// <summary>Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
-        /// KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked
-        /// on; *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.</summary>
+        /// <summary>Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+        /// KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.</summary>
         public long Save(byte[] bytes)
         {
             long size = 0;
@@ -585,10 +582,10 @@ namespace Kiri
             Check(Native.kiriWorld_FinishCuts(Handle));
         }
 
-        /// <summary>Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may
-        /// give a strange world but cannot crash the program, and takes memory in proportion to its size, which is
-        /// below 2^31. Arrays that the old world handed out live until the next tick. On failure nothing has changed:
-        /// KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.</summary>
+        /// <summary>Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save
+        /// cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live
+        /// until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another
+        /// version. KIRI_ERROR_MEMORY.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -645,9 +642,9 @@ namespace Kiri
             return profileValue;
         }
 
-        /// <summary>Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
-        /// triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
-        /// the def.</summary>
+        /// <summary>Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins.
+        /// On failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the
+        /// def.</summary>
         public Sheet CreateSheet(float[] restPositions, int[] indices, SheetDef @def, float[] framePoints = null)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -677,8 +674,7 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the
-        /// model is not KIRI_MODEL_LINKS.</summary>
+        /// <summary>Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.</summary>
         public Sheet CreateFoldedSheet(float[] restPositions, int[] indices, SheetDef @def, Fold[] folds, float[] framePoints = null, int count = -1)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -700,9 +696,8 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle is -1
-        /// if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
-        /// ray.</summary>
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle -1: it
+        /// does not.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Sheet sheet, out Hit hit)
         {
             var sheetValue = new SheetId();
@@ -713,9 +708,9 @@ namespace Kiri
             return hitValue.Triangle >= 0;
         }
 
-        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
-        /// piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
-        /// a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.</summary>
+        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+        /// KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i],
+        /// 0: pending.</summary>
         public Status DetachPieces(FrameId[] frames, SheetId[] detached, int count = -1)
         {
             int result;
@@ -730,9 +725,9 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
-        /// piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
-        /// a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.</summary>
+        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+        /// KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i],
+        /// 0: pending.</summary>
         public Status DestroyPieces(FrameId[] frames, int count = -1)
         {
             int result;
@@ -745,7 +740,10 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Begins a blade for one sheet; 0: for all sheets, also those that are made later.</summary>
+        /// <summary>A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is
+        /// in the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least
+        /// while it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting).
+        /// `sheet` 0: all.</summary>
         public Blade BeginBlade(SheetId sheet)
         {
             var bladeValue = new BladeId();
@@ -753,8 +751,9 @@ namespace Kiri
             return new Blade(this, bladeValue);
         }
 
-        /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-        /// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.</summary>
+        /// <summary>Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is
+        /// 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual,
+        /// sewing).</summary>
         public Seam CreateSeam(float[] lineA, float[] lineB, SeamDef @def)
         {
             @def.countA = lineA.Length / 2;
@@ -788,7 +787,7 @@ namespace Kiri
             return seams;
         }
 
-        /// <summary>Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.</summary>
+        /// <summary>Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.</summary>
         public Obstacle CreateObstacle(ObstacleDef @def, float[] outline = null)
         {
             if (outline != null) @def.outlineCount = outline.Length / 2;
@@ -820,9 +819,9 @@ namespace Kiri
             return World.Text(Native.kiriGetResultText((int)result));
         }
 
-        /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several.
-        /// Cuts and linear systems share the time as in the profile. Sets only the limits for which the profile
-        /// recorded work. The host chooses by its clock, so a replay must set the same budgets.</summary>
+        /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets
+        /// only limits for which it recorded work. The host chooses by its clock, so a replay must set the same
+        /// budgets.</summary>
         public static void FitBudget(Profile profile, float microseconds, ref Budget budget)
         {
             fixed (Budget* budgetValue = &budget)
@@ -853,8 +852,7 @@ namespace Kiri
             return qualityValue;
         }
 
-        /// <summary>Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1)
-        /// floats and 6 * columns * rows indices. columns and rows are 1 to 4096.</summary>
+        /// <summary>Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices.</summary>
         public static void FillRectangle(float width, float height, int columns, int rows, out float[] restPositions, out int[] indices)
         {
             restPositions = new float[2 * (Math.Max(0, Math.Min(columns, 4096)) + 1) * (Math.Max(0, Math.Min(rows, 4096)) + 1)];
@@ -879,15 +877,16 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator SheetId(Sheet handle) { return handle.Id; }
 
-        /// <summary>Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
-        /// triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
-        /// the def.</summary>
+        /// <summary>Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins.
+        /// On failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the
+        /// def.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroySheet(World.Handle, Id));
         }
 
-        /// <summary>Gets the current settings, stamped for kiriSheet_SetSettings.</summary>
+        /// <summary>Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do
+        /// not come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.</summary>
         public SheetSettings GetSettings()
         {
             var settingsValue = new SheetSettings();
@@ -895,17 +894,15 @@ namespace Kiri
             return settingsValue;
         }
 
-        /// <summary>Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
-        /// kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass
-        /// changes the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.</summary>
+        /// <summary>Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do
+        /// not come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.</summary>
         public void SetSettings(SheetSettings settings)
         {
             World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
         }
 
-        /// <summary>Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget
-        /// of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment,
-        /// and moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.</summary>
+        /// <summary>Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+        /// KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.</summary>
         public int AddFold(Fold fold)
         {
             int indexValue = 0;
@@ -945,9 +942,9 @@ namespace Kiri
             return dirtyValue;
         }
 
-        /// <summary>Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw
-        /// between two ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut
-        /// separated from another gets the index of the other. The manual has the code (drawing).</summary>
+        /// <summary>Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not
+        /// exist. *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual,
+        /// drawing).</summary>
         public Sheet CopyPrevious(int first, int[] vertices, int count = -1)
         {
             if (count < 0) count = vertices.Length;
@@ -972,10 +969,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
-        /// def that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric
-        /// coordinates of its three corners in that triangle, also beside a seam that weldDistance closed. The manual
-        /// has the code (meshes).</summary>
+        /// <summary>Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights:
+        /// 9 floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual,
+        /// meshes).</summary>
         public void CopySources(int firstTriangle, int[] sources, int count = -1)
         {
             if (count < 0) count = sources.Length;
@@ -986,10 +982,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
-        /// def that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric
-        /// coordinates of its three corners in that triangle, also beside a seam that weldDistance closed. The manual
-        /// has the code (meshes).</summary>
+        /// <summary>Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights:
+        /// 9 floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual,
+        /// meshes).</summary>
         public void CopySourceWeights(int firstTriangle, float[] weights, int count = -1)
         {
             if (count < 0) count = weights.Length / 9;
@@ -1017,7 +1012,7 @@ namespace Kiri
             return new FloatView(World, positionsValue, 3 * count);
         }
 
-        /// <summary>Gets the counts, at no cost.</summary>
+        /// <summary>Get the counts, at no cost; sum the totals over the frames.</summary>
         public Counts GetCounts()
         {
             var countsValue = new Counts();
@@ -1025,7 +1020,7 @@ namespace Kiri
             return countsValue;
         }
 
-        /// <summary>Sums the totals over the frames.</summary>
+        /// <summary>Get the counts, at no cost; sum the totals over the frames.</summary>
         public Totals GetTotals()
         {
             var totalsValue = new Totals();
@@ -1033,10 +1028,8 @@ namespace Kiri
             return totalsValue;
         }
 
-        /// <summary>Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
-        /// very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
-        /// frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good
-        /// it is (accuracy).</summary>
+        /// <summary>Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
+        /// frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).</summary>
         public double EstimateError()
         {
             double relativeValue = 0;
@@ -1060,10 +1053,10 @@ namespace Kiri
             World.Check(Native.kiriSheet_Wake(World.Handle, Id));
         }
 
-        /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
-        /// wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
-        /// only. Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has
-        /// the order of calls that set targets or move obstacles (sheets). Pending loads and contacts stay.</summary>
+        /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
+        /// columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
+        /// Targets of pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts
+        /// stay (manual, sheets).</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
             World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
@@ -1095,9 +1088,8 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle is -1
-        /// if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
-        /// ray.</summary>
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit-&gt;triangle -1: it
+        /// does not.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Hit hit)
         {
             var hitValue = new Hit();
@@ -1115,9 +1107,9 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
-        /// unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
-        /// KIRI_ERROR_ARGUMENT: the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.</summary>
+        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null
+        /// gradients (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a
+        /// cut is pending.</summary>
         public int GetWeights(Float2 restPoint, FrameId[] frames, float[] weights, float[] gradients)
         {
             World.CheckRoom(weights, 1 * frames.Length);
@@ -1159,8 +1151,8 @@ namespace Kiri
             return new FrameIdView(World, framesValue, count);
         }
 
-        /// <summary>Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their
-        /// number. If the largest piece is pending to become a sheet, the largest of the others stays, too.</summary>
+        /// <summary>Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their
+        /// number.</summary>
         public int DropCrumbs(float area)
         {
             int countValue = 0;
@@ -1239,8 +1231,8 @@ namespace Kiri
             World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind));
         }
 
-        /// <summary>Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
-        /// sheet.</summary>
+        /// <summary>Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
+        /// outside.</summary>
         public Pin CreatePin(PinDef @def)
         {
             var pinValue = new PinId();
@@ -1248,11 +1240,9 @@ namespace Kiri
             return new Pin(World, pinValue);
         }
 
-        /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-        /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        /// line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
-        /// line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
-        /// meets no material.</summary>
+        /// <summary>Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
+        /// does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
+        /// to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.</summary>
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
@@ -1260,11 +1250,9 @@ namespace Kiri
             return new Pin(World, clampValue);
         }
 
-        /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-        /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        /// line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
-        /// line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
-        /// meets no material.</summary>
+        /// <summary>Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
+        /// does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
+        /// to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.</summary>
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
@@ -1290,8 +1278,8 @@ namespace Kiri
             return pins;
         }
 
-        /// <summary>Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
-        /// point, or rest point, and obstacle of an earlier one starts with the earlier impulse.</summary>
+        /// <summary>Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its
+        /// impulse.</summary>
         public void SetContacts(Contact[] contacts, int count = -1)
         {
             if (count < 0) count = contacts.Length;
@@ -1312,8 +1300,8 @@ namespace Kiri
             return new ContactForceView(World, forcesValue, count);
         }
 
-        /// <summary>Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host
-        /// needs no obstacles or contacts outside. For moving obstacles add their own way.</summary>
+        /// <summary>Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add
+        /// their way.</summary>
         public void GetReach(float dt, out Float3 lower, out Float3 upper)
         {
             var lowerValue = new Float3();
@@ -1370,12 +1358,11 @@ namespace Kiri
             return pieceValue;
         }
 
-        /// <summary>Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states,
-        /// and the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
-        /// new id in the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
-        /// budget leaves; *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the
-        /// sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
-        /// costs (cutting).</summary>
+        /// <summary>Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay
+        /// with the old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut
+        /// is pending, or the budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and
+        /// KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the
+        /// sheet (manual, cutting).</summary>
         public Sheet DetachPiece()
         {
             var detachedValue = new SheetId();
@@ -1383,9 +1370,9 @@ namespace Kiri
             return new Sheet(World, detachedValue);
         }
 
-        /// <summary>Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have
-        /// fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
-        /// three equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.</summary>
+        /// <summary>Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on
+        /// a cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of
+        /// zeros.</summary>
         public Status DestroyPiece()
         {
             int result;
@@ -1393,17 +1380,9 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Gets the current state.</summary>
-        public FrameState GetState()
-        {
-            var stateValue = new FrameState();
-            World.CheckRead(Native.kiriFrame_GetState(World.Handle, Id, &stateValue));
-            return stateValue;
-        }
-
-        /// <summary>Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
-        /// (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees
-        /// it. Material of which held frames carry more than half moves through obstacles.</summary>
+        /// <summary>Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as
+        /// above) in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves
+        /// through obstacles.</summary>
         public void Hold(Float3? position = null, Float9? rotation = null)
         {
             Float3 positionValue = position.GetValueOrDefault();
@@ -1411,9 +1390,19 @@ namespace Kiri
             World.Check(Native.kiriFrame_Hold(World.Handle, Id, position.HasValue ? (float*)&positionValue : null, rotation.HasValue ? (float*)&rotationValue : null));
         }
 
-        /// <summary>Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
+        /// <summary>Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet:
         /// means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for
-        /// a free one.</summary>
+        /// a free frame.</summary>
+        public FrameState GetState()
+        {
+            var stateValue = new FrameState();
+            World.CheckRead(Native.kiriFrame_GetState(World.Handle, Id, &stateValue));
+            return stateValue;
+        }
+
+        /// <summary>Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet:
+        /// means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for
+        /// a free frame.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1460,24 +1449,26 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
-        /// sheet.</summary>
+        /// <summary>Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
+        /// outside.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyPin(World.Handle, Id));
         }
 
-        /// <summary>Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        /// and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the
-        /// visible surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off
-        /// by 0.5 mm.</summary>
+        /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+        /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));
         }
 
-        /// <summary>Sets the target and the rotation of the line's material: columns are the directions of u and v and the
-        /// normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.</summary>
+        /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+        /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetPose(Float3 target, Float9 rotation)
         {
             World.Check(Native.kiriPin_SetPose(World.Handle, Id, (float*)&target, (float*)&rotation));
@@ -1489,7 +1480,8 @@ namespace Kiri
             World.Check(Native.kiriPin_SetBreakForce(World.Handle, Id, breakForce));
         }
 
-        /// <summary>Gets the current state.</summary>
+        /// <summary>Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
+        /// over the last tick that moved it. At rest the sum of reactions is the weight.</summary>
         public PinState GetState()
         {
             var stateValue = new PinState();
@@ -1497,9 +1489,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-        /// the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum
-        /// in motion.</summary>
+        /// <summary>Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
+        /// over the last tick that moved it. At rest the sum of reactions is the weight.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1589,21 +1580,23 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator SeamId(Seam handle) { return handle.Id; }
 
-        /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
-        /// KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.</summary>
+        /// <summary>Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is
+        /// 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual,
+        /// sewing).</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroySeam(World.Handle, Id));
         }
 
-        /// <summary>Sets stiffness and restAngle, as in the def.</summary>
+        /// <summary>Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is
+        /// 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual,
+        /// sewing).</summary>
         public void SetHinge(float stiffness, float restAngle)
         {
             World.Check(Native.kiriSeam_SetHinge(World.Handle, Id, stiffness, restAngle));
         }
 
-        /// <summary>Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the
-        /// index.</summary>
+        /// <summary>Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.</summary>
         public Stitch GetStitch(int index)
         {
             var stitchValue = new Stitch();
@@ -1611,7 +1604,7 @@ namespace Kiri
             return stitchValue;
         }
 
-        /// <summary>Gets the number of stitches that are left.</summary>
+        /// <summary>Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.</summary>
         public int GetCount()
         {
             int stitchesValue = 0;
@@ -1632,7 +1625,7 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator ObstacleId(Obstacle handle) { return handle.Id; }
 
-        /// <summary>Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.</summary>
+        /// <summary>Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyObstacle(World.Handle, Id));

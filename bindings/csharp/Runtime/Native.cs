@@ -439,16 +439,13 @@ namespace Kiri
     {
         /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.</summary>
         Links = 0,
-        /// <summary>Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
-        /// tick takes about three times as long. From 1e8 Pa on use 8 `iterations`.</summary>
+        /// <summary>Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets).</summary>
         Affine = 1,
-        /// <summary>Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame.
-        /// The thinner the sheet, the less it bends; the manual has figures (accuracy).</summary>
+        /// <summary>Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy).</summary>
         Points = 2,
     }
 
-    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It
-    /// changes the motion only where something touches or holds the sheet. Collision points stay on the linear surface.</summary>
+    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
@@ -460,8 +457,7 @@ namespace Kiri
     /// <summary>Integration in time. Both solve one linear system an iteration.</summary>
     public enum TimeStepping
     {
-        /// <summary>TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a
-        /// new or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy).</summary>
+        /// <summary>TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler.</summary>
         SecondOrder = 0,
         /// <summary>Backward Euler, of first order: takes energy out of a swing, more in longer steps.</summary>
         Euler = 1,
@@ -475,9 +471,9 @@ namespace Kiri
         Clamp = 2,
     }
 
-    /// <summary>A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
-    /// not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-    /// kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m.</summary>
+    /// <summary>A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities alone: set
+    /// pose and velocity before a tick, and apply the impulse of its state after it (manual, contact). Lengths: up to
+    /// 1e6 m.</summary>
     public enum ObstacleType
     {
         /// <summary>all below the plane through its position; the third column of its rotation points out</summary>
@@ -490,7 +486,7 @@ namespace Kiri
         Box = 3,
         /// <summary>radius, height: along the third column</summary>
         Cylinder = 4,
-        /// <summary>outline: a convex polygon in the plane of the first two columns; height: along the third, 0: without end</summary>
+        /// <summary>outline: convex, in the plane of the first two columns; height along the third, 0: endless</summary>
         Prism = 5,
     }
 
@@ -524,9 +520,9 @@ namespace Kiri
     }
 
     /// <summary>Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
-    /// using 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes
-    /// effect depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do
-    /// not, bit for bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).</summary>
+    /// using 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut
+    /// takes effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it
+    /// (manual, budget).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Budget
     {
@@ -638,20 +634,20 @@ namespace Kiri
         public int SamplesRefreshed;
         /// <summary>Items in the units of kiriBudget. An item that takes more work counts more than once.</summary>
         public int SolverIterations;
-        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
-        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
+        /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
+        /// kiriCounts).</summary>
         public int CellsChanged;
-        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
-        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
+        /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
+        /// kiriCounts).</summary>
         public int WeightsChanged;
-        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
-        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
+        /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
+        /// kiriCounts).</summary>
         public int VerticesChanged;
-        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
-        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
+        /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
+        /// kiriCounts).</summary>
         public int PointsChanged;
-        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
-        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
+        /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
+        /// kiriCounts).</summary>
         public int LinksChanged;
         /// <summary>sheets in which a cut took effect</summary>
         public int Commits;
@@ -750,17 +746,14 @@ namespace Kiri
         public Material Material;
         /// <summary>grid squares along the longer side, 1 to 4096; default 32</summary>
         public int GridResolution;
-        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the
-        /// longer side. The manual has more (cutting)</summary>
+        /// <summary>m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side</summary>
         public float SnapDistance;
-        /// <summary>Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-        /// without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).</summary>
+        /// <summary>m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none</summary>
         public float WeldDistance;
         /// <summary>Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null:
-        /// frameCount frames are spread evenly, at most one for every two squares of material. frameCount 0: regions
-        /// are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of
-        /// the shape under the sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks
-        /// the result. 0, or 1 and more; default 5</summary>
+        /// frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after
+        /// cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy).
+        /// 0, or 1 and more; default 5</summary>
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
@@ -769,10 +762,9 @@ namespace Kiri
         internal float* framePoints;
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
-        /// <summary>Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-        /// rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
-        /// area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when
-        /// (accuracy). default 0.95</summary>
+        /// <summary>Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new
+        /// frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual,
+        /// accuracy). default 0.95</summary>
         public float RigidWeight;
         /// <summary>default 0</summary>
         public float RigidArea;
@@ -797,16 +789,13 @@ namespace Kiri
         public int CollisionPoints;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
-        /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
-        /// second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece
-        /// sleeps.</summary>
+        /// <summary>m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never</summary>
         public float SleepSpeed;
         /// <summary>KIRI_MODEL_..., default KIRI_MODEL_LINKS</summary>
         public Model Model;
         /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
         public Skinning Skinning;
-        /// <summary>1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held
-        /// positions across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.</summary>
+        /// <summary>1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0</summary>
         public Flag Planar;
         /// <summary>KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER</summary>
         public TimeStepping TimeStepping;
@@ -856,9 +845,7 @@ namespace Kiri
         public int SelfContact;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
-        /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
-        /// second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece
-        /// sleeps.</summary>
+        /// <summary>m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never</summary>
         public float SleepSpeed;
         /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
         public Skinning Skinning;
@@ -870,9 +857,8 @@ namespace Kiri
         public Flag Normals;
     }
 
-    /// <summary>A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
-    /// piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
-    /// lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).</summary>
+    /// <summary>A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and each side has its
+    /// own frames. Lines may end in the material, meet and cross; cuts go through or along them (manual, folding).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Fold
     {
@@ -884,13 +870,12 @@ namespace Kiri
         public float Stiffness;
         /// <summary>rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it</summary>
         public float RestAngle;
-        /// <summary>N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no
-        /// limit. Only in a material with a yieldStress</summary>
+        /// <summary>N m per metre: it bends for good beyond, with a yieldStress. 0: no limit</summary>
         public float YieldMoment;
     }
 
-    /// <summary>A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
-    /// joined: 0 where all of it is cut, or inside one region.</summary>
+    /// <summary>A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides: not cut, nor
+    /// rigid.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct FoldState
     {
@@ -899,9 +884,8 @@ namespace Kiri
         public double Length;
     }
 
-    /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-    /// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and
-    /// sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
+    /// <summary>The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when
+    /// indices or vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeMesh
     {
@@ -930,8 +914,7 @@ namespace Kiri
         public int Count;
     }
 
-    /// <summary>Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
-    /// Other data of a vertex, and the corners of a triangle, change only in these ranges.</summary>
+    /// <summary>Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change in every tick.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Dirty
     {
@@ -1024,9 +1007,8 @@ namespace Kiri
         public FrameId Frame;
     }
 
-    /// <summary>A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces;
-    /// they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending
-    /// work has not separated anything yet. Momentum is about the world's origin.</summary>
+    /// <summary>A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces, and change when
+    /// a piece comes off or goes (kiriFrame_GetPiece). Cuts with pending work have separated nothing yet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PieceState
     {
@@ -1034,11 +1016,11 @@ namespace Kiri
         public double Area;
         /// <summary>m^2, kg</summary>
         public double Mass;
-        /// <summary>of mass, m; kg m/s; kg m^2/s</summary>
+        /// <summary>of mass, m; kg m/s, kg m^2/s about the origin</summary>
         public Double3 Center;
-        /// <summary>of mass, m; kg m/s; kg m^2/s</summary>
+        /// <summary>of mass, m; kg m/s, kg m^2/s about the origin</summary>
         public Double3 Momentum;
-        /// <summary>of mass, m; kg m/s; kg m^2/s</summary>
+        /// <summary>of mass, m; kg m/s, kg m^2/s about the origin</summary>
         public Double3 AngularMomentum;
         /// <summary>m, world: the smallest box around its vertices</summary>
         public Float3 Lower;
@@ -1098,9 +1080,8 @@ namespace Kiri
         public Flag Held;
     }
 
-    /// <summary>Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal:
-    /// each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can
-    /// sleep in constant wind, and still air (zero velocity) resists.</summary>
+    /// <summary>Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets
+    /// density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Wind
     {
@@ -1164,10 +1145,9 @@ namespace Kiri
         public ObstacleId Obstacle;
     }
 
-    /// <summary>A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are
-    /// divided into the same parts of their lengths, and stitches join these points. A stitch belongs to its two
-    /// points: cuts go through a seam, and pieces that come off or become sheets keep their stitches. It ends with the
-    /// piece of one of them. The manual has lines, hinges and breaking (sewing).</summary>
+    /// <summary>A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
+    /// stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
+    /// stitches. It ends with the piece of one of its points (manual, sewing).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct SeamDef
     {
@@ -1224,9 +1204,9 @@ namespace Kiri
         public float Angle;
     }
 
-    /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
-    /// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-    /// sheet. A contact that the point does not reach in the tick costs little and does nothing.</summary>
+    /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, with
+    /// Coulomb friction. The host computes planes from the visible surface for each tick. Planes out of reach do
+    /// nothing.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Contact
     {
@@ -1642,10 +1622,10 @@ namespace Kiri
         public static extern int kiriSheet_GetFrames(IntPtr world, SheetId sheet, FrameId* frames, int capacity, int* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriFrame_GetState(IntPtr world, FrameId frame, FrameState* state);
+        public static extern int kiriFrame_Hold(IntPtr world, FrameId frame, float* position, float* rotation);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriFrame_Hold(IntPtr world, FrameId frame, float* position, float* rotation);
+        public static extern int kiriFrame_GetState(IntPtr world, FrameId frame, FrameState* state);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriFrame_GetReaction(IntPtr world, FrameId frame, double* force, double* torque);

@@ -77,9 +77,9 @@ kiri.DRAW_POINTS = 1024
 kiri.DRAW_ALL = 2047
 
 --- Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
---- 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
---- depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
---- bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).
+--- 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes
+--- effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual,
+--- budget).
 ---@class kiri.Budget
 ---@field triangles? integer # split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 ---@field cells? integer # visited, or with a new distance: grid, regions, shape functions. A link counts as a cell
@@ -132,11 +132,11 @@ kiri.DRAW_ALL = 2047
 ---@field cellsSettled? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
 ---@field samplesRefreshed? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
 ---@field solverIterations? integer # Items in the units of kiriBudget. An item that takes more work counts more than once.
----@field cellsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
----@field weightsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
----@field verticesChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
----@field pointsChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
----@field linksChanged? integer # Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.
+---@field cellsChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
+---@field weightsChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
+---@field verticesChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
+---@field pointsChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
+---@field linksChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 ---@field commits? integer # sheets in which a cut took effect
 ---@field systemsSolved? integer # linear systems, large and small
 ---@field contacts? integer # planes given to the solver: by the host, by obstacles, and between sheets
@@ -186,14 +186,14 @@ kiri.DRAW_ALL = 2047
 ---@field velocity? number[]|ffi.cdata* # Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
 ---@field material? kiri.Material
 ---@field gridResolution? integer # grid squares along the longer side, 1 to 4096; default 32
----@field snapDistance? number # m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer side. The manual has more (cutting)
----@field weldDistance? number # Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).
----@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and more; default 5
+---@field snapDistance? number # m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
+---@field weldDistance? number # m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
+---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 5
 ---@field frameLength? number # m; used where frameCount is 0; default 0
 ---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
 ---@field framePoints? number[]|ffi.cdata*
 ---@field maxFrames? integer # re-sampling stops here; default 256
----@field rigidWeight? number # Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). default 0.95
+---@field rigidWeight? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95
 ---@field rigidArea? number # default 0
 ---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
@@ -203,10 +203,10 @@ kiri.DRAW_ALL = 2047
 ---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field collisionPoints? integer # spread evenly over the sheet, at least one in every piece; default 0: none
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
----@field sleepSpeed? number # A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field model? integer # KIRI_MODEL_..., default KIRI_MODEL_LINKS
 ---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
----@field planar? boolean|integer # 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.
+---@field planar? boolean|integer # 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
 ---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 ---@field fadeTime? number # s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
 ---@field normals? boolean|integer # 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
@@ -224,32 +224,29 @@ kiri.DRAW_ALL = 2047
 ---@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
----@field sleepSpeed? number # A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
+---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 ---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 ---@field fadeTime? number # stays 0 with paper.popping
 ---@field normals? boolean|integer # 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
 
---- A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
---- piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
---- lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).
+--- A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and each side has its
+--- own frames. Lines may end in the material, meet and cross; cuts go through or along them (manual, folding).
 ---@class kiri.Fold
 ---@field from? number[]|ffi.cdata* # m
 ---@field to? number[]|ffi.cdata* # m
 ---@field stiffness? number # N m/rad per metre of the line, 0 or more; 0: a free hinge
 ---@field restAngle? number # rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
----@field yieldMoment? number # N m per metre: most that it carries, and more with the material's hardening; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
+---@field yieldMoment? number # N m per metre: it bends for good beyond, with a yieldStress. 0: no limit
 
---- A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
---- joined: 0 where all of it is cut, or inside one region.
+--- A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides: not cut, nor rigid.
 ---@class kiri.FoldState
 ---@field fold? kiri.Fold
 ---@field angle? number
 ---@field length? number
 
---- The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
---- grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
---- have the precision of the library, 2^-29 of the sheet.
+--- The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision grows when indices
+--- or vertices are added or changed. Sources have the precision of the library, 2^-29 of the sheet.
 ---@class kiri.Mesh
 ---@field positions? number[]|ffi.cdata* # 3 a vertex, m, world
 ---@field normals? number[]|ffi.cdata* # 3 a vertex, unit; null where the sheet makes none
@@ -266,8 +263,7 @@ kiri.DRAW_ALL = 2047
 ---@field first? integer
 ---@field count? integer
 
---- Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
---- Other data of a vertex, and the corners of a triangle, change only in these ranges.
+--- Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change in every tick.
 ---@class kiri.Dirty
 ---@field newVertices? kiri.Range # up to the last one of the mesh
 ---@field newTriangles? kiri.Range # up to the last one of the mesh
@@ -322,15 +318,14 @@ kiri.DRAW_ALL = 2047
 ---@field velocity? number[]|ffi.cdata* # m/s, by the weights of the point
 ---@field frame? kiri.Frame # the frame of its region; it also names the piece
 
---- A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces;
---- they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending
---- work has not separated anything yet. Momentum is about the world's origin.
+--- A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces, and change when a
+--- piece comes off or goes (kiriFrame_GetPiece). Cuts with pending work have separated nothing yet.
 ---@class kiri.PieceState
 ---@field area? number # m^2, kg
 ---@field mass? number # m^2, kg
----@field center? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
----@field momentum? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
----@field angularMomentum? number[]|ffi.cdata* # of mass, m; kg m/s; kg m^2/s
+---@field center? number[]|ffi.cdata* # of mass, m; kg m/s, kg m^2/s about the origin
+---@field momentum? number[]|ffi.cdata* # of mass, m; kg m/s, kg m^2/s about the origin
+---@field angularMomentum? number[]|ffi.cdata* # of mass, m; kg m/s, kg m^2/s about the origin
 ---@field lower? number[]|ffi.cdata* # m, world: the smallest box around its vertices
 ---@field upper? number[]|ffi.cdata* # m, world: the smallest box around its vertices
 ---@field frames? integer # counts
@@ -361,9 +356,8 @@ kiri.DRAW_ALL = 2047
 ---@field mass? number # kg
 ---@field held? boolean|integer # 1: moved by the host, see kiriFrame_Hold
 
---- Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
---- square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
---- constant wind, and still air (zero velocity) resists.
+--- Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density
+--- / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.
 ---@class kiri.Wind
 ---@field velocity? number[]|ffi.cdata* # m/s
 ---@field density? number # kg/m^3, 0 or more; air: 1.2
@@ -390,10 +384,9 @@ kiri.DRAW_ALL = 2047
 ---@field breakForce? number # N, or 0
 ---@field obstacle? kiri.Obstacle # that the target moves with; 0: none
 
---- A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
---- into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
---- through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
---- them. The manual has lines, hinges and breaking (sewing).
+--- A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
+--- stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
+--- stitches. It ends with the piece of one of its points (manual, sewing).
 ---@class kiri.SeamDef
 ---@field cookie? integer
 ---@field sheetA? kiri.Sheet # of the same model, and not planar
@@ -418,9 +411,8 @@ kiri.DRAW_ALL = 2047
 ---@field force? number[]|ffi.cdata* # N, on sheet A: mean over the last tick that moved it
 ---@field angle? number # rad, as restAngle
 
---- A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
---- Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
---- sheet. A contact that the point does not reach in the tick costs little and does nothing.
+--- A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, with
+--- Coulomb friction. The host computes planes from the visible surface for each tick. Planes out of reach do nothing.
 ---@class kiri.Contact
 ---@field point? integer # index of the collision point; -1: restPoint names the point
 ---@field restPoint? number[]|ffi.cdata* # m, in the material; read only where point is -1
@@ -583,7 +575,8 @@ function kiri.getResultName(result) end
 ---@return string
 function kiri.getResultText(result) end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
+--- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 ---@param def? kiri.WorldDef
 ---@return kiri.WorldDef
 function kiri.defaultWorldDef(def) end
@@ -598,14 +591,13 @@ function kiri.defaultWorldDef(def) end
 ---@return boolean # work is left for later ticks
 function World:tick(dt, substeps) end
 
---- Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
---- that only reads does not change the line, and logs its own. Valid until the next function that changes the world.
+--- Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one.
 ---@return string
 function World:getLastError() end
 
---- Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
---- floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
---- keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+--- Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
+--- wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a
+--- float.
 ---@param origin number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function World:shiftOrigin(origin) end
@@ -620,9 +612,7 @@ function World:setGravity(gravity) end
 ---@return boolean # work is left for later ticks
 function World:setBudget(budget) end
 
---- Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
---- same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
---- pending.
+--- Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual, budget).
 ---@return integer
 function World:getStateHash() end
 
@@ -630,27 +620,25 @@ function World:getStateHash() end
 ---@return kiri.Sheet[]
 function World:getSheets() end
 
---- Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
---- replay stops there. The world does not change; without a recording nothing happens.
+--- Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A replay stops there.
 ---@param bytes string|ffi.cdata*
 ---@param count? integer
 ---@return boolean # work is left for later ticks
 function World:note(bytes, count) end
 
 --- Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
---- host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
---- another result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
---- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
---- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
+--- host's. KIRI_PENDING: more calls follow. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
+--- result, other ids or another state; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: not a
+--- recording, damaged, cut short, or of another version. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY:
+--- start again.
 ---@param recording string|ffi.cdata*
 ---@param replay? kiri.Replay
 ---@param size? integer
 ---@return boolean # work is left for later ticks
 function World:replay(recording, replay, size) end
 
---- Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
---- KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
---- *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.
+--- Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+--- KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.
 ---@param bytes? string|ffi.cdata*
 ---@param capacity? integer
 ---@return string
@@ -662,10 +650,10 @@ function World:save(bytes, capacity) end
 ---@return boolean # work is left for later ticks
 function World:finishCuts() end
 
---- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give
---- a strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31.
---- Arrays that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA:
---- the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
+--- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save cannot
+--- crash the program, and takes memory in proportion to its size, which is below 2^31. Old arrays live until the next
+--- tick. On failure nothing has changed: KIRI_ERROR_DATA: not a save, damaged, or of another version.
+--- KIRI_ERROR_MEMORY.
 ---@param bytes string|ffi.cdata*
 ---@param size? integer
 ---@return boolean # work is left for later ticks
@@ -694,9 +682,8 @@ function World:getEvents() end
 ---@return kiri.Profile
 function World:getProfile(profile) end
 
---- Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
---- linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The
---- host chooses by its clock, so a replay must set the same budgets.
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
+--- limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets.
 ---@param profile? kiri.Profile
 ---@param microseconds number
 ---@param budget? kiri.Budget
@@ -720,21 +707,20 @@ function kiri.getMaterial(preset, material) end
 ---@return kiri.Quality
 function kiri.getQuality(preset, quality) end
 
---- Fills the def with its defaults, and stamps it. It has no mesh yet.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 ---@param def? kiri.SheetDef
 ---@return kiri.SheetDef
 function kiri.defaultSheetDef(def) end
 
---- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
---- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
---- def.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 ---@param def? kiri.SheetDef
 ---@return kiri.Sheet
 function World:createSheet(def) end
 
---- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
---- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
---- def.
+--- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
+--- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
 ---@return boolean # work is left for later ticks
 function Sheet:destroy() end
 
@@ -749,29 +735,27 @@ function Sheet:destroy() end
 ---@return kiri.Sheet
 function World:createRectangle(width, height, columns, rows, def) end
 
---- Gets the current settings, stamped for kiriSheet_SetSettings.
+--- Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+--- come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 ---@param settings? kiri.SheetSettings
 ---@return kiri.SheetSettings
 function Sheet:getSettings(settings) end
 
---- Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
---- kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes
---- the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
+--- Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do not
+--- come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
 ---@param settings? kiri.SheetSettings
 ---@return boolean # work is left for later ticks
 function Sheet:setSettings(settings) end
 
---- Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
---- not KIRI_MODEL_LINKS.
+--- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
 ---@param def? kiri.SheetDef
 ---@param folds kiri.Fold[]|ffi.cdata*
 ---@param count? integer
 ---@return kiri.Sheet
 function World:createFoldedSheet(def, folds, count) end
 
---- Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget of
---- cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
---- moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+--- Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+--- KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
 ---@param fold? kiri.Fold
 ---@return integer
 function Sheet:addFold(fold) end
@@ -791,8 +775,7 @@ function Sheet:getFold(index, state) end
 ---@return boolean # work is left for later ticks
 function Sheet:setFold(index, stiffness, restAngle) end
 
---- Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats
---- and 6 * columns * rows indices. columns and rows are 1 to 4096.
+--- Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices.
 ---@param width number
 ---@param height number
 ---@param columns integer
@@ -814,8 +797,7 @@ function Sheet:getMesh(mesh) end
 ---@return kiri.Dirty
 function Sheet:getDirty(sinceRevision, dirty) end
 
---- Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
---- these. KIRI_ERROR_STATE: the sheet makes no normals.
+--- Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals.
 ---@param first integer
 ---@param count integer
 ---@param positions? number[]|ffi.cdata*
@@ -825,9 +807,8 @@ function Sheet:getDirty(sinceRevision, dirty) end
 ---@return boolean # work is left for later ticks
 function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride) end
 
---- Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
---- ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
---- another gets the index of the other. The manual has the code (drawing).
+--- Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not exist.
+--- *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual, drawing).
 ---@param first integer
 ---@param count integer
 ---@param vertices number[]|ffi.cdata*
@@ -842,18 +823,16 @@ function Sheet:copyPrevious(first, count, vertices) end
 ---@return ffi.cdata*
 function Sheet:copyIndices16(firstTriangle, count, indices) end
 
---- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
---- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+--- Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+--- floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes).
 ---@param firstTriangle integer
 ---@param count integer
 ---@param sources number[]|ffi.cdata*
 ---@return ffi.cdata*
 function Sheet:copySources(firstTriangle, count, sources) end
 
---- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
---- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
+--- Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
+--- floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes).
 ---@param firstTriangle integer
 ---@param count integer
 ---@param weights number[]|ffi.cdata*
@@ -870,19 +849,18 @@ function Sheet:getSolid(thickness, solid) end
 ---@return kiri.Array
 function Sheet:getCollisionPoints() end
 
---- Gets the counts, at no cost.
+--- Get the counts, at no cost; sum the totals over the frames.
 ---@param counts? kiri.Counts
 ---@return kiri.Counts
 function Sheet:getCounts(counts) end
 
---- Sums the totals over the frames.
+--- Get the counts, at no cost; sum the totals over the frames.
 ---@param totals? kiri.Totals
 ---@return kiri.Totals
 function Sheet:getTotals(totals) end
 
---- Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
---- many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
---- KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
+--- Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
+--- to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
 ---@return number
 function Sheet:estimateError() end
 
@@ -894,10 +872,9 @@ function Sheet:isAwake() end
 ---@return boolean # work is left for later ticks
 function Sheet:wake() end
 
---- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
---- columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
---- pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
---- set targets or move obstacles (sheets). Pending loads and contacts stay.
+--- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
+--- of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
+--- clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
 ---@param rotation number[]|ffi.cdata*
 ---@param translation number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
@@ -958,8 +935,7 @@ function Frame:setPieceUserData(data) end
 ---@return integer
 function Frame:getPieceUserData() end
 
---- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
---- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param maxDistance number
@@ -967,8 +943,7 @@ function Frame:getPieceUserData() end
 ---@return kiri.Hit
 function Sheet:raycast(origin, direction, maxDistance, hit) end
 
---- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle is -1 if it does
---- not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
+--- Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does not.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param maxDistance number
@@ -983,9 +958,8 @@ function World:raycast(origin, direction, maxDistance, hit) end
 ---@return kiri.PointState
 function Sheet:getPoint(restPoint, state) end
 
---- Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
---- null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT:
---- the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
+--- (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
 ---@param restPoint number[]|ffi.cdata*
 ---@return kiri.Frame[]
 ---@return number[]
@@ -1013,38 +987,36 @@ function Sheet:getPieceFrames(piece) end
 ---@return integer
 function Frame:getPiece() end
 
---- Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
---- the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
---- the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
---- *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
---- tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
+--- Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay with the
+--- old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut is pending, or
+--- the budget lacks samples for the piece; *detached is 0, further cuts of the sheet wait, and
+--- KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet
+--- (manual, cutting).
 ---@return kiri.Sheet?
 function Frame:detachPiece() end
 
---- Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
---- samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
---- corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+--- Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
+--- is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
 ---@return boolean # work is left for later ticks
 function Frame:destroyPiece() end
 
---- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
---- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
---- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+--- KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+--- pending.
 ---@param frames kiri.Frame[]|ffi.cdata*
 ---@param count? integer
 ---@return kiri.Sheet[]
 function World:detachPieces(frames, count) end
 
---- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
---- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
---- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+--- KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
+--- pending.
 ---@param frames kiri.Frame[]|ffi.cdata*
 ---@param count? integer
 ---@return boolean # work is left for later ticks
 function World:destroyPieces(frames, count) end
 
---- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
---- the largest piece is pending to become a sheet, the largest of the others stays, too.
+--- Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number.
 ---@param area number
 ---@return integer
 function Sheet:dropCrumbs(area) end
@@ -1073,7 +1045,9 @@ function Cut:finish() end
 ---@return kiri.Cut
 function Sheet:slice(blade) end
 
---- Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+--- A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
+--- material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is
+--- in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
 ---@param sheet? kiri.Sheet
 ---@return kiri.Blade
 function World:beginBlade(sheet) end
@@ -1101,21 +1075,23 @@ function Blade:finish() end
 ---@return kiri.Frame[]
 function Sheet:getFrames() end
 
---- Gets the current state.
----@param state? kiri.FrameState
----@return kiri.FrameState
-function Frame:getState(state) end
-
---- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
---- (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
---- Material of which held frames carry more than half moves through obstacles.
+--- Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
+--- in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
 ---@param position? number[]|ffi.cdata*
 ---@param rotation? number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Frame:hold(position, rotation) end
 
---- Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
---- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
+--- Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+--- frame.
+---@param state? kiri.FrameState
+---@return kiri.FrameState
+function Frame:getState(state) end
+
+--- Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free
+--- frame.
 ---@param force? number[]|ffi.cdata*
 ---@param torque? number[]|ffi.cdata*
 ---@return ffi.cdata*
@@ -1160,49 +1136,46 @@ function Sheet:applyImpulse(restPoint, impulse) end
 ---@return boolean # work is left for later ticks
 function Sheet:setWind(wind) end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 ---@param def? kiri.PinDef
 ---@return kiri.PinDef
 function kiri.defaultPinDef(def) end
 
---- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 ---@param def? kiri.PinDef
 ---@return kiri.Pin
 function Sheet:createPin(def) end
 
---- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+--- Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside.
 ---@return boolean # work is left for later ticks
 function Pin:destroy() end
 
---- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
---- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
---- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
---- material.
+--- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+--- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+--- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin
 function Sheet:clampLine(from, to) end
 
---- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
---- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
---- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
---- material.
+--- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
+--- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
+--- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin
 function Sheet:hingeLine(from, to) end
 
---- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
---- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
---- surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
+--- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+--- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Pin:setTarget(target) end
 
---- Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On
---- a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
+--- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
+--- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@param rotation number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
@@ -1213,14 +1186,14 @@ function Pin:setPose(target, rotation) end
 ---@return boolean # work is left for later ticks
 function Pin:setBreakForce(breakForce) end
 
---- Gets the current state.
+--- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+--- the last tick that moved it. At rest the sum of reactions is the weight.
 ---@param state? kiri.PinState
 ---@return kiri.PinState
 function Pin:getState(state) end
 
---- Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
---- last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
---- motion.
+--- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+--- the last tick that moved it. At rest the sum of reactions is the weight.
 ---@param force? number[]|ffi.cdata*
 ---@param torque? number[]|ffi.cdata*
 ---@return ffi.cdata*
@@ -1231,35 +1204,37 @@ function Pin:getReaction(force, torque) end
 ---@return kiri.Pin[]
 function Sheet:getPins() end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 ---@param def? kiri.SeamDef
 ---@return kiri.SeamDef
 function kiri.defaultSeamDef(def) end
 
---- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 ---@param def? kiri.SeamDef
 ---@return kiri.Seam
 function World:createSeam(def) end
 
---- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
---- KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is planar; the models differ.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 ---@return boolean # work is left for later ticks
 function Seam:destroy() end
 
---- Sets stiffness and restAngle, as in the def.
+--- Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
+--- KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
 ---@param stiffness number
 ---@param restAngle number
 ---@return boolean # work is left for later ticks
 function Seam:setHinge(stiffness, restAngle) end
 
---- Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+--- Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 ---@param index integer
 ---@param stitch? kiri.Stitch
 ---@return kiri.Stitch
 function Seam:getStitch(index, stitch) end
 
---- Gets the number of stitches that are left.
+--- Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.
 ---@return integer
 function Seam:getCount() end
 
@@ -1267,8 +1242,7 @@ function Seam:getCount() end
 ---@return kiri.Seam[]
 function World:getSeams() end
 
---- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
---- point, or rest point, and obstacle of an earlier one starts with the earlier impulse.
+--- Sets the contacts of the next tick alone. One with point and obstacle of an earlier one starts with its impulse.
 ---@param contacts kiri.Contact[]|ffi.cdata*
 ---@param count? integer
 ---@return boolean # work is left for later ticks
@@ -1278,17 +1252,17 @@ function Sheet:setContacts(contacts, count) end
 ---@return kiri.Array
 function Sheet:getContactForces() end
 
---- Fills the def with its defaults, and stamps it.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 ---@param def? kiri.ObstacleDef
 ---@return kiri.ObstacleDef
 function kiri.defaultObstacleDef(def) end
 
---- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 ---@param def? kiri.ObstacleDef
 ---@return kiri.Obstacle
 function World:createObstacle(def) end
 
---- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
+--- Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.
 ---@return boolean # work is left for later ticks
 function Obstacle:destroy() end
 
@@ -1321,8 +1295,7 @@ function Obstacle:setMass(mass, inertia, centerOfMass) end
 ---@return kiri.ObstacleState
 function Obstacle:getState(state) end
 
---- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
---- no obstacles or contacts outside. For moving obstacles add their own way.
+--- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add their way.
 ---@param dt number
 ---@param lower? number[]|ffi.cdata*
 ---@param upper? number[]|ffi.cdata*

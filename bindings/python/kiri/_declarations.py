@@ -108,8 +108,8 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriBlade_MoveRay': True,
  'kiriBlade_End': True,
  'kiriSheet_GetFrames': False,
- 'kiriFrame_GetState': False,
  'kiriFrame_Hold': True,
+ 'kiriFrame_GetState': False,
  'kiriFrame_GetReaction': False,
  'kiriFrame_ApplyForce': True,
  'kiriSheet_ApplyForce': True,
@@ -227,8 +227,8 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriBlade_MoveRay': ('Blade', 'move_ray'),
  'kiriBlade_End': ('Blade', 'end'),
  'kiriSheet_GetFrames': ('Sheet', 'frames'),
- 'kiriFrame_GetState': ('Frame', 'state'),
  'kiriFrame_Hold': ('Frame', 'hold'),
+ 'kiriFrame_GetState': ('Frame', 'state'),
  'kiriFrame_GetReaction': ('Frame', 'reaction'),
  'kiriFrame_ApplyForce': ('Frame', 'apply_force'),
  'kiriSheet_ApplyForce': ('Sheet', 'apply_force'),
@@ -522,8 +522,8 @@ kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float fro
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);
 kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity, int32_t* count);
-kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
+kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3]);
 kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3], const float torque[3]);

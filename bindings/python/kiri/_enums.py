@@ -78,9 +78,7 @@ class Model(_enum.IntEnum):
 
 
 class Skinning(_enum.IntEnum):
-    """The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh.
-    It changes the motion only where something touches or holds the sheet. Collision points stay on the linear
-    surface."""
+    """The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets)."""
     LINEAR = 0
     SMOOTH = 1
 
@@ -99,10 +97,9 @@ class PinType(_enum.IntEnum):
 
 
 class ObstacleType(_enum.IntEnum):
-    """A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities;
-    forces do not move it. A host with an engine sets pose and velocities before each tick, and applies the
-    impulse of kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6
-    m."""
+    """A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities
+    alone: set pose and velocity before a tick, and apply the impulse of its state after it (manual, contact).
+    Lengths: up to 1e6 m."""
     PLANE = 0
     SPHERE = 1
     CAPSULE = 2

@@ -103,9 +103,9 @@ class World:
         return self.call('kiriWorld_Tick', dt, substeps)
 
     def shift_origin(self, origin: Numbers) -> int:
-        """Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because
-        of floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned
-        arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+        """Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
+        wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not
+        fit a float.
         """
         return self.call('kiriWorld_ShiftOrigin', core.vector(origin, 3))
 
@@ -120,9 +120,8 @@ class World:
         return self.call('kiriWorld_SetBudget', structure)
 
     def state_hash(self) -> int:
-        """Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
-        the same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work
-        is pending.
+        """Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual,
+        budget).
         """
         return self.get('kiriWorld_GetStateHash', 'uint64_t')
 
@@ -158,28 +157,30 @@ class World:
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
     def create_folded_sheet(self, folds: Numbers, **fields: Any) -> kiri.Sheet:
-        """Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the
-        model is not KIRI_MODEL_LINKS.
-        """
+        """Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateFoldedSheet', 'kiriSheet', structure, *core.rows('kiriFold', folds, 1)))
 
     def destroy_pieces(self, frames: Iterable[kiri.Frame]) -> int:
-        """Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
-        piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
-        a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
+        """Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none.
+        KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i],
+        0: pending.
         """
         ids = [self.id_of(thing, 'Frame') for thing in frames]
         return self.call('kiriWorld_DestroyPieces', core.ffi.new('kiriFrame[]', ids), len(ids))
 
     def begin_blade(self, sheet: Optional[kiri.Sheet] = None) -> kiri.Blade:
-        """Begins a blade for one sheet; 0: for all sheets, also those that are made later."""
+        """A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is
+        in the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least
+        while it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting).
+        `sheet` 0: all.
+        """
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
 
     def create_seam(self, **fields: Any) -> kiri.Seam:
-        """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
-        line has no length or leaves the material; a sheet is planar; the models differ.
+        """Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. KIRI_ERROR_ARGUMENT:
+        a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSeamDef', fields, kept)
@@ -197,13 +198,14 @@ class Sheet:
         return self.world.call('kiriDestroySheet', self.id)
 
     def settings(self) -> Record:
-        """Returns the current settings, stamped for kiriSheet_SetSettings."""
+        """Returns the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they
+        do not come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.
+        """
         return core.record(self.world.get('kiriSheet_GetSettings', 'kiriSheetSettings', self.id), self.world)
 
     def add_fold(self, **fields: Any) -> int:
-        """Adds a fold to a sheet; its index is the count of folds before. The next ticks make the fold, on the budget
-        of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment,
-        and moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+        """Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
+        KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
         """
         kept = []  # until C has read it
         structure = core.structure(self.world, 'kiriFold', fields, kept)
@@ -248,18 +250,16 @@ class Sheet:
             'kiriSheet_GetCollisionPoints', 'float', self.id)
 
     def counts(self) -> Record:
-        """Returns the counts, at no cost."""
+        """Returns the counts, at no cost; sum the totals over the frames."""
         return core.record(self.world.get('kiriSheet_GetCounts', 'kiriCounts', self.id), self.world)
 
     def totals(self) -> Record:
-        """Sums the totals over the frames."""
+        """Returns the counts, at no cost; sum the totals over the frames."""
         return core.record(self.world.get('kiriSheet_GetTotals', 'kiriTotals', self.id), self.world)
 
     def estimate_error(self) -> float:
-        """Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
-        very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
-        frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good
-        it is (accuracy).
+        """Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
+        frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)
 
@@ -272,10 +272,10 @@ class Sheet:
         return self.world.call('kiriSheet_Wake', self.id)
 
     def transform(self, rotation: Numbers, translation: Numbers) -> int:
-        """Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
-        wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
-        only. Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has
-        the order of calls that set targets or move obstacles (sheets). Pending loads and contacts stay.
+        """Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
+        columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
+        Targets of pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts
+        stay (manual, sheets).
         """
         return self.world.call('kiriSheet_Transform', self.id, core.vector(rotation, 9), core.vector(translation, 3))
 
@@ -329,8 +329,8 @@ class Sheet:
             'kiriSheet_GetPieceFrames', 'kiriFrame', self.id, piece)
 
     def drop_crumbs(self, area: float) -> int:
-        """Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. The result is their
-        number. If the largest piece is pending to become a sheet, the largest of the others stays, too.
+        """Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their
+        number.
         """
         return self.world.get('kiriSheet_DropCrumbs', 'int32_t', self.id, area)
 
@@ -381,20 +381,16 @@ class Sheet:
         return self.world.call('kiriSheet_SetWind', self.id, structure)
 
     def clamp_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
-        """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-        direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
-        line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
-        meets no material.
+        """Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
+        does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
+        to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_ClampLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
     def hinge_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
-        """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
-        direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
-        line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
-        meets no material.
+        """Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
+        does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
+        to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_HingeLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
@@ -412,8 +408,8 @@ class Sheet:
             'kiriSheet_GetContactForces', 'kiriContactForce', self.id)
 
     def reach(self, dt: float) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
-        """Returns a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a
-        host needs no obstacles or contacts outside. For moving obstacles add their own way.
+        """Returns a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving obstacles add
+        their way.
         """
         lower = core.ffi.new('float[3]')
         upper = core.ffi.new('float[3]')
@@ -462,30 +458,32 @@ class Frame:
         return self.world.get('kiriFrame_GetPiece', 'int32_t', self.id)
 
     def detach_piece(self) -> Optional[kiri.Sheet]:
-        """Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states,
-        and the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
-        new id in the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
-        budget leaves; the result is None. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names
-        the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
-        costs (cutting).
+        """Makes a sheet of the piece with this frame. All of the piece moves along, with ids and states; cuts stay
+        with the old sheet. A clamp or hinge that holds both gets a copy with a new id. KIRI_PENDING: work on a cut
+        is pending, or the budget lacks samples for the piece; the result is None, further cuts of the sheet wait,
+        and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of
+        the sheet (manual, cutting).
         """
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 
     def destroy_piece(self) -> int:
-        """Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have
-        fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
-        three equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+        """Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on
+        a cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of
+        zeros.
         """
         return self.world.call('kiriFrame_DestroyPiece', self.id)
 
     def state(self) -> Record:
-        """Returns the current state."""
+        """Returns the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the
+        sheet: means over the last tick that moved the piece, with the frame's own weight and change of momentum.
+        Zero for a free frame.
+        """
         return core.record(self.world.get('kiriFrame_GetState', 'kiriFrameState', self.id), self.world)
 
     def reaction(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
-        """Returns the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the
+        """Returns the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the
         sheet: means over the last tick that moved the piece, with the frame's own weight and change of momentum.
-        Zero for a free one.
+        Zero for a free frame.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
@@ -517,16 +515,18 @@ class Pin:
         return self.world.call('kiriDestroyPin', self.id)
 
     def set_target(self, target: Numbers) -> int:
-        """Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the
-        visible surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off
-        by 0.5 mm.
+        """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+        material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        KIRI_ERROR_ARGUMENT: a point.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 
     def set_pose(self, target: Numbers, rotation: Numbers) -> int:
-        """Sets the target and the rotation of the line's material: columns are the directions of u and v and the
-        normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
+        """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
+        material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
+        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        KIRI_ERROR_ARGUMENT: a point.
         """
         return self.world.call('kiriPin_SetPose', self.id, core.vector(target, 3), core.vector(rotation, 9))
 
@@ -535,13 +535,14 @@ class Pin:
         return self.world.call('kiriPin_SetBreakForce', self.id, break_force)
 
     def state(self) -> Record:
-        """Returns the current state."""
+        """Returns the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet:
+        means over the last tick that moved it. At rest the sum of reactions is the weight.
+        """
         return core.record(self.world.get('kiriPin_GetState', 'kiriPinState', self.id), self.world)
 
     def reaction(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
-        """Returns the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
-        over the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its
-        momentum in motion.
+        """Returns the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet:
+        means over the last tick that moved it. At rest the sum of reactions is the weight.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
@@ -603,21 +604,25 @@ class Blade:
 
 class Seam:
     def destroy(self) -> int:
-        """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
-        line has no length or leaves the material; a sheet is planar; the models differ.
+        """Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. KIRI_ERROR_ARGUMENT:
+        a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
         """
         return self.world.call('kiriDestroySeam', self.id)
 
     def set_hinge(self, stiffness: float, rest_angle: float) -> int:
-        """Sets stiffness and restAngle, as in the def."""
+        """Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. KIRI_ERROR_ARGUMENT:
+        a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
+        """
         return self.world.call('kiriSeam_SetHinge', self.id, stiffness, rest_angle)
 
     def stitch(self, index: int) -> Record:
-        """Returns a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the
+        """Returns a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such
         index.
         """
         return core.record(self.world.get('kiriSeam_GetStitch', 'kiriStitch', self.id, index), self.world)
 
     def count(self) -> int:
-        """Returns the number of stitches that are left."""
+        """Returns a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such
+        index.
+        """
         return self.world.get('kiriSeam_GetCount', 'int32_t', self.id)

@@ -107,11 +107,11 @@ pub const KIRI_QUALITY_COUNT: i32 = 3;
 /// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
 /// neighbours.
 pub const KIRI_MODEL_LINKS: i32 = 0;
-/// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-/// unknowns a frame: a tick takes about three times as long. From 1e8 Pa on use 8 \`iterations\`.
+/// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns
+/// (manual, sheets).
 pub const KIRI_MODEL_AFFINE: i32 = 1;
-/// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
-/// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures (accuracy).
+/// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend
+/// (accuracy).
 pub const KIRI_MODEL_POINTS: i32 = 2;
 
 /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
@@ -119,9 +119,8 @@ pub const KIRI_SKINNING_LINEAR: i32 = 0;
 /// each carries a patch that bends towards its neighbours: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
-/// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a
-/// contact, a new or moved pin or hold, a new frame or a fast turn; the manual has figures
-/// (accuracy).
+/// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take
+/// backward Euler.
 pub const KIRI_TIME_STEPPING_SECOND_ORDER: i32 = 0;
 /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 pub const KIRI_TIME_STEPPING_EULER: i32 = 1;
@@ -140,8 +139,7 @@ pub const KIRI_OBSTACLE_CAPSULE: i32 = 2;
 pub const KIRI_OBSTACLE_BOX: i32 = 3;
 /// radius, height: along the third column
 pub const KIRI_OBSTACLE_CYLINDER: i32 = 4;
-/// outline: a convex polygon in the plane of the first two columns; height: along the third, 0:
-/// without end
+/// outline: convex, in the plane of the first two columns; height along the third, 0: endless
 pub const KIRI_OBSTACLE_PRISM: i32 = 5;
 
 /// a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale
@@ -168,53 +166,44 @@ pub const KIRI_DRAW_OBSTACLES: i32 = 512;
 pub const KIRI_DRAW_POINTS: i32 = 1024;
 pub const KIRI_DRAW_ALL: i32 = 2047;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. While a
-/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
-/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE (manual, budget). at least 16-byte aligned, or null
+/// Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError
+/// alone, or in a function that takes a const kiriWorld also functions that do so. Other calls give
+/// KIRI_ERROR_STATE (manual, budget). at least 16-byte aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. While a
-/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
-/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE (manual, budget).
+/// Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError
+/// alone, or in a function that takes a const kiriWorld also functions that do so. Other calls give
+/// KIRI_ERROR_STATE (manual, budget).
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. While a
-/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
-/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE (manual, budget).
+/// Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError
+/// alone, or in a function that takes a const kiriWorld also functions that do so. Other calls give
+/// KIRI_ERROR_STATE (manual, budget).
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. While a
-/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
-/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE (manual, budget). seconds; read for the profile only, never by the
-/// simulation
+/// Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError
+/// alone, or in a function that takes a const kiriWorld also functions that do so. Other calls give
+/// KIRI_ERROR_STATE (manual, budget). seconds; read for the profile only, never by the simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. While a
-/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
-/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE (manual, budget). the next bytes of the recording
+/// Functions of the host. They may call other worlds; of the same world kiriWorld_GetLastError
+/// alone, or in a function that takes a const kiriWorld also functions that do so. Other calls give
+/// KIRI_ERROR_STATE (manual, budget). the next bytes of the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
-/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
-/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
-/// itself and return null (manual, budget). the items from start up to, without, end
+/// For hosts that lend threads to a tick. \`start\` calls the task for ranges of minRange items or
+/// more that cover the items 0 to itemCount, each once, and returns a handle; \`finish\` returns
+/// after these calls (manual, budget). the items from start up to, without, end
 pub type kiriTaskFn = Option<unsafe extern "C" fn(start: i32, end: i32, taskContext: *mut c_void)>;
 
-/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
-/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
-/// itself and return null (manual, budget).
+/// For hosts that lend threads to a tick. \`start\` calls the task for ranges of minRange items or
+/// more that cover the items 0 to itemCount, each once, and returns a handle; \`finish\` returns
+/// after these calls (manual, budget).
 pub type kiriStartTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, task: kiriTaskFn, itemCount: i32, minRange: i32, taskContext: *mut c_void) -> *mut c_void>;
 
-/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
-/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
-/// itself and return null (manual, budget).
+/// For hosts that lend threads to a tick. \`start\` calls the task for ranges of minRange items or
+/// more that cover the items 0 to itemCount, each once, and returns a handle; \`finish\` returns
+/// after these calls (manual, budget).
 pub type kiriFinishTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, handle: *mut c_void)>;
 
 /// Receives up to 240 vertices, valid during the call: one for a point, two for a line, three for a
@@ -223,9 +212,8 @@ pub type kiriDrawFn = Option<unsafe extern "C" fn(user: *mut c_void, vertices: *
 
 /// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
 /// one allowance: using 30 % of one leaves 70 % of the others. Other work goes on in the next tick.
-/// The tick in which a cut takes effect depends on the budget; the mesh, grid, regions, weights and
-/// sites of frames after all work is done do not, bit for bit. The manual has examples, single
-/// steps that exceed a limit, and the order of turns (budget).
+/// The budget decides when a cut takes effect; the mesh, grid, regions, weights and sites of frames
+/// after all work is done do not depend on it (manual, budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriBudget {
@@ -327,25 +315,20 @@ pub struct kiriProfile {
     pub samplesRefreshed: i32,
     /// Items in the units of kiriBudget. An item that takes more work counts more than once.
     pub solverIterations: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: kiriCounts).
     pub cellsChanged: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: kiriCounts).
     pub weightsChanged: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: kiriCounts).
     pub verticesChanged: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: kiriCounts).
     pub pointsChanged: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: kiriCounts).
     pub linksChanged: i32,
     /// sheets in which a cut took effect
     pub commits: i32,
@@ -451,19 +434,14 @@ pub struct kiriSheetDef {
     pub material: kiriMaterial,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub gridResolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0:
-    /// 1e-4 of the longer side. The manual has more (cutting)
+    /// m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
     pub snapDistance: f32,
-    /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual
-    /// has the rule (meshes).
+    /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: frameCount frames are spread evenly, at most one for every two squares of
-    /// material. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it
-    /// follows from \`accuracy\`, the relative error of the shape under the sheet's own weight. The
-    /// manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and
-    /// more; default 5
+    /// least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0:
+    /// regions are split, after cuts too, to frameLength; frameLength 0: it follows from
+    /// \`accuracy\`, the relative error (manual, accuracy). 0, or 1 and more; default 5
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,
@@ -472,10 +450,9 @@ pub struct kiriSheetDef {
     pub framePoints: *const f32,
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
-    /// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area
-    /// larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0.
-    /// rigidArea 0: a quarter of the area of a frame at the start. A rigid sheet has frameCount 1
-    /// and maxFrames 1. The manual says when (accuracy). default 0.95
+    /// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea
+    /// (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter
+    /// of a frame's area (manual, accuracy). default 0.95
     pub rigidWeight: f32,
     /// default 0
     pub rigidArea: f32,
@@ -500,17 +477,13 @@ pub struct kiriSheetDef {
     pub collisionPoints: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
-    /// budget). Default 0.001; 0: no piece sleeps.
+    /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleepSpeed: f32,
     /// KIRI_MODEL_..., default KIRI_MODEL_LINKS
     pub model: i32,
     /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
     pub skinning: i32,
-    /// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities,
-    /// forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an
-    /// affine one 6. Default 0.
+    /// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
     pub planar: i32,
     /// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
     pub timeStepping: i32,
@@ -549,9 +522,7 @@ pub struct kiriSheetSettings {
     pub selfContact: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
-    /// budget). Default 0.001; 0: no piece sleeps.
+    /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleepSpeed: f32,
     /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
     pub skinning: i32,
@@ -563,10 +534,9 @@ pub struct kiriSheetSettings {
     pub normals: i32,
 }
 
-/// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The
-/// sheet stays in one piece, and each side of the line has its own control frames. Lines may end in
-/// the material, meet and cross; two lines in one place add their stiffness. Cuts go through a
-/// fold, or along it. The manual has more (folding).
+/// A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and
+/// each side has its own frames. Lines may end in the material, meet and cross; cuts go through or
+/// along them (manual, folding).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriFold {
@@ -578,13 +548,12 @@ pub struct kiriFold {
     pub stiffness: f32,
     /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
     pub restAngle: f32,
-    /// N m per metre: most that it carries, and more with the material's hardening; an angle beyond
-    /// stays. 0: no limit. Only in a material with a yieldStress
+    /// N m per metre: it bends for good beyond, with a yieldStress. 0: no limit
     pub yieldMoment: f32,
 }
 
-/// A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which
-/// two sides are joined: 0 where all of it is cut, or inside one region.
+/// A fold, its mean angle (rad, as restAngle) and the length (m) along which it joins two sides:
+/// not cut, nor rigid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriFoldState {
@@ -593,9 +562,9 @@ pub struct kiriFoldState {
     pub length: f64,
 }
 
-/// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
-/// sheets). revision grows when indices or vertices are added or changed. Rest positions are
-/// floats; sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
+/// The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision
+/// grows when indices or vertices are added or changed. Sources have the precision of the library,
+/// 2^-29 of the sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMesh {
@@ -624,9 +593,8 @@ pub struct kiriRange {
     pub count: i32,
 }
 
-/// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change
-/// in every tick. Other data of a vertex, and the corners of a triangle, change only in these
-/// ranges.
+/// Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change
+/// in every tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriDirty {
@@ -721,10 +689,9 @@ pub struct kiriPointState {
     pub frame: kiriFrame,
 }
 
-/// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces
-/// visit all pieces; they change when a piece comes off or goes, and kiriFrame_GetPiece returns the
-/// current one. A cut with pending work has not separated anything yet. Momentum is about the
-/// world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices go from 0 to kiriCounts.pieces,
+/// and change when a piece comes off or goes (kiriFrame_GetPiece). Cuts with pending work have
+/// separated nothing yet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPieceState {
@@ -732,11 +699,11 @@ pub struct kiriPieceState {
     pub area: f64,
     /// m^2, kg
     pub mass: f64,
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub center: [f64; 3],
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub momentum: [f64; 3],
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub angularMomentum: [f64; 3],
     /// m, world: the smallest box around its vertices
     pub lower: [f32; 3],
@@ -796,9 +763,9 @@ pub struct kiriFrameState {
     pub held: i32,
 }
 
-/// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
-/// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
-/// All zero: none. A sheet can sleep in constant wind, and still air (zero velocity) resists.
+/// Air past the sheet. v is the velocity of the air less the material's, n the normal: each square
+/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet
+/// can sleep in wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriWind {
@@ -851,11 +818,10 @@ pub struct kiriPinState {
     pub obstacle: kiriObstacle,
 }
 
-/// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both
-/// lines are divided into the same parts of their lengths, and stitches join these points. A stitch
-/// belongs to its two points: cuts go through a seam, and pieces that come off or become sheets
-/// keep their stitches. It ends with the piece of one of them. The manual has lines, hinges and
-/// breaking (sewing).
+/// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the
+/// same parts, and stitches join these points. A stitch belongs to its two points: cuts go through
+/// a seam, and pieces keep their stitches. It ends with the piece of one of its points (manual,
+/// sewing).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSeamDef {
@@ -902,9 +868,8 @@ pub struct kiriStitch {
 }
 
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
-/// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
-/// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
-/// little and does nothing.
+/// upper side, with Coulomb friction. The host computes planes from the visible surface for each
+/// tick. Planes out of reach do nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriContact {
@@ -1047,12 +1012,13 @@ unsafe extern "C" {
     /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
     /// line with its meaning.
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
-    /// Fills the def with its defaults, and stamps it.
+    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
+    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
+    /// operations (manual, budget).
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Creates an empty world. On failure \*world is null, and the log of the def gets the line; a
-    /// def that was not filled has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler
-    /// contracted or reordered float operations, or this thread flushes small floats to zero or
-    /// does not round to nearest (manual, budget).
+    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
+    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
+    /// operations (manual, budget).
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
     /// Frees the world and all its content. Null is allowed.
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
@@ -1064,51 +1030,45 @@ unsafe extern "C" {
     /// for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets
     /// that were stopped.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
-    /// Returns one line: the reason why the last function that changes the world failed; "" if it
-    /// did not. A function that only reads does not change the line, and logs its own. Valid until
-    /// the next function that changes the world.
+    /// Returns why the last function that changes the world failed, in a line; "": it did not.
+    /// Valid until the next one.
     pub fn kiriWorld_GetLastError(world: *const kiriWorld) -> *const c_char;
-    /// Moves the origin of the world to a point (m): subtracts it from all positions, as large
-    /// worlds need because of floats. The motion goes on as before, to rounding; nothing wakes. The
-    /// host shifts its own data. Returned arrays keep the old positions until the next tick.
+    /// Moves the origin of the world to a point (m), as large worlds need: subtracts it from all
+    /// positions. Nothing wakes. Returned arrays keep the old positions until the next tick.
     /// KIRI_ERROR_ARGUMENT: a position would not fit a float.
     pub fn kiriWorld_ShiftOrigin(world: *mut kiriWorld, origin: *const f32) -> kiriResult;
     /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn kiriWorld_SetGravity(world: *mut kiriWorld, gravity: *const f32) -> kiriResult;
     /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn kiriWorld_SetBudget(world: *mut kiriWorld, budget: *const kiriBudget) -> kiriResult;
-    /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
-    /// same calls have the same hash, and two worlds with the same hash go on alike. After refused
-    /// memory it may differ while work is pending.
+    /// Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike
+    /// (manual, budget).
     pub fn kiriWorld_GetStateHash(world: *const kiriWorld, hash: *mut u64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the world's sheets, in the order of their making; \*count
     /// is how many there are.
     pub fn kiriWorld_GetSheets(world: *const kiriWorld, sheets: *mut kiriSheet, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a
-    /// player pressed. A replay stops there. The world does not change; without a recording nothing
-    /// happens.
+    /// Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A
+    /// replay stops there.
     pub fn kiriWorld_Note(world: *mut kiriWorld, bytes: *const c_void, count: i32) -> kiriResult;
     /// Makes the calls of a recording up to the next tick or note, included. The world must be new;
-    /// hooks stay the host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording
-    /// ended. KIRI_ERROR_REPLAY: a call gave another result, other ids or another state than
-    /// recorded; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: the bytes
-    /// are not a recording, damaged, cut short, or of another version; the line says where.
-    /// KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
+    /// hooks stay the host's. KIRI_PENDING: more calls follow. KIRI_OK: the recording ended.
+    /// KIRI_ERROR_REPLAY: a call gave another result, other ids or another state; the line names
+    /// it, and the next call goes on behind it. KIRI_ERROR_DATA: not a recording, damaged, cut
+    /// short, or of another version. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY:
+    /// start again.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
-    /// Writes the world to memory with room for \`capacity\` bytes; null: counts them only. \*size:
-    /// bytes of the save. KIRI_ERROR_ARGUMENT: \`capacity\` is less than \*size; nothing is
-    /// written. KIRI_PENDING: a cut is being worked on; \*size is 0, and nothing is written. Save
-    /// after a later tick, or after kiriWorld_FinishCuts.
+    /// Writes the world to memory with room for \`capacity\` bytes; null: only counts them. \*size:
+    /// bytes of the save. KIRI_ERROR_ARGUMENT: \`capacity\` is less. KIRI_PENDING: a cut is pending
+    /// (kiriWorld_FinishCuts); \*size is 0.
     pub fn kiriWorld_Save(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
     /// Finishes the work on cuts at once, whatever the budget is, without moving anything. The next
     /// tick reports the events. Arrays that the world handed out end as with a tick.
     /// KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
     pub fn kiriWorld_FinishCuts(world: *mut kiriWorld) -> kiriResult;
     /// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a
-    /// malicious save may give a strange world but cannot crash the program, and takes memory in
-    /// proportion to its size, which is below 2^31. Arrays that the old world handed out live until
-    /// the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes are not a save,
-    /// damaged, or of another version. KIRI_ERROR_MEMORY.
+    /// malicious save cannot crash the program, and takes memory in proportion to its size, which
+    /// is below 2^31. Old arrays live until the next tick. On failure nothing has changed:
+    /// KIRI_ERROR_DATA: not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// For rollback: copies all of the world, also work in progress, into memory of the host; much
     /// faster than a save, and exact to the bit. For this process only: never store or send the
@@ -1122,10 +1082,9 @@ unsafe extern "C" {
     pub fn kiriWorld_GetEvents(world: *const kiriWorld, events: *mut *const kiriEvent, count: *mut i32) -> kiriResult;
     /// Gets the profile of the last tick that was not refused.
     pub fn kiriWorld_GetProfile(world: *const kiriWorld, profile: *mut kiriProfile) -> kiriResult;
-    /// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum
-    /// of several. Cuts and linear systems share the time as in the profile. Sets only the limits
-    /// for which the profile recorded work. The host chooses by its clock, so a replay must set the
-    /// same budgets.
+    /// Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum
+    /// of several. Sets only limits for which it recorded work. The host chooses by its clock, so a
+    /// replay must set the same budgets.
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
     /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;
@@ -1133,33 +1092,35 @@ unsafe extern "C" {
     pub fn kiriGetMaterial(preset: i32, material: *mut kiriMaterial) -> kiriResult;
     /// Gets the numbers of a preset, KIRI_QUALITY_...
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
-    /// Fills the def with its defaults, and stamps it. It has no mesh yet.
+    /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
+    /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
+    /// line names them by index in the def.
     pub fn kiriDefaultSheetDef(def: *mut kiriSheetDef);
-    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
-    /// KIRI_ERROR_MESH: the triangles do not form a sheet; the line says why, and names the
-    /// triangle, or the two at an edge, by index in the def.
+    /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
+    /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
+    /// line names them by index in the def.
     pub fn kiriCreateSheet(world: *mut kiriWorld, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
-    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
-    /// KIRI_ERROR_MESH: the triangles do not form a sheet; the line says why, and names the
-    /// triangle, or the two at an edge, by index in the def.
+    /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
+    /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
+    /// line names them by index in the def.
     pub fn kiriDestroySheet(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
     /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
     /// defaults. A recording stores it as kiriCreateSheet.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
-    /// Gets the current settings, stamped for kiriSheet_SetSettings.
+    /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
+    /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
+    /// Motion, stiffness of pins and frames stay.
     pub fn kiriSheet_GetSettings(world: *const kiriWorld, sheet: kiriSheet, settings: *mut kiriSheetSettings) -> kiriResult;
-    /// Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not
-    /// come from kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities
-    /// are kept, so a new mass changes the momentum; the stiffness of pins and the lengths that
-    /// placed the frames are kept, too.
+    /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
+    /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
+    /// Motion, stiffness of pins and frames stay.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
-    /// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index.
-    /// KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
+    /// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not
+    /// KIRI_MODEL_LINKS.
     pub fn kiriCreateFoldedSheet(world: *mut kiriWorld, def: *const kiriSheetDef, folds: *const kiriFold, count: i32, sheet: *mut kiriSheet) -> kiriResult;
-    /// Adds a fold to a sheet; its index is the count of folds before. The next ticks make the
-    /// fold, on the budget of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets
-    /// one. The fold starts without a moment, and moves to its rest angle within fadeTime. Errors
+    /// Adds a fold; its index is the count of folds before. The next ticks make it, on the budget
+    /// of cuts, until a KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors
     /// as of kiriCreateFoldedSheet.
     pub fn kiriSheet_AddFold(world: *mut kiriWorld, sheet: kiriSheet, fold: *const kiriFold, index: *mut i32) -> kiriResult;
     /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
@@ -1170,46 +1131,42 @@ unsafe extern "C" {
     /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
     /// steps. The sheet wakes.
     pub fn kiriSheet_SetFold(world: *mut kiriWorld, sheet: kiriSheet, index: i32, stiffness: f32, restAngle: f32) -> kiriResult;
-    /// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns +
-    /// 1) \* (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
+    /// Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns
+    /// rows indices.
     pub fn kiriFillRectangle(width: f32, height: f32, columns: i32, rows: i32, restPositions: *mut f32, indices: *mut i32) -> kiriResult;
     /// Gets the arrays, without a copy.
     pub fn kiriSheet_GetMesh(world: *const kiriWorld, sheet: kiriSheet, mesh: *mut kiriMesh) -> kiriResult;
     /// Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
     pub fn kiriSheet_GetDirty(world: *const kiriWorld, sheet: kiriSheet, sinceRevision: u32, dirty: *mut kiriDirty) -> kiriResult;
-    /// Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more.
-    /// Null: does not copy these. KIRI_ERROR_STATE: the sheet makes no normals.
+    /// Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null.
+    /// KIRI_ERROR_STATE: no normals.
     pub fn kiriSheet_CopyVertices(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, positions: *mut c_void, positionStride: i32, normals: *mut c_void, normalStride: i32) -> kiriResult;
-    /// Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts
-    /// that draw between two ticks; -1: it did not exist. \*from: the sheet that had the vertices
-    /// then. A vertex that a cut separated from another gets the index of the other. The manual has
-    /// the code (drawing).
+    /// Copies the index that each vertex had when the last tick began, to draw between two ticks;
+    /// -1: it did not exist. \*from: the sheet that had them then. A vertex that a cut separated
+    /// has the other's index (manual, drawing).
     pub fn kiriSheet_CopyPrevious(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, vertices: *mut i32, from: *mut kiriSheet) -> kiriResult;
     /// Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more
     /// than 65535 vertices.
     pub fn kiriSheet_CopyIndices16(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, indices: *mut u16) -> kiriResult;
-    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
-    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
-    /// a seam that weldDistance closed. The manual has the code (meshes).
+    /// Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was
+    /// removed. Weights: 9 floats each, the barycentric coordinates of its three corners there,
+    /// also beside a welded seam (manual, meshes).
     pub fn kiriSheet_CopySources(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, sources: *mut i32) -> kiriResult;
-    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
-    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
-    /// a seam that weldDistance closed. The manual has the code (meshes).
+    /// Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was
+    /// removed. Weights: 9 floats each, the barycentric coordinates of its three corners there,
+    /// also beside a welded seam (manual, meshes).
     pub fn kiriSheet_CopySourceWeights(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, weights: *mut f32) -> kiriResult;
     /// Makes the solid surface. thickness: m, 0: the material's thickness.
     pub fn kiriSheet_GetSolid(world: *mut kiriWorld, sheet: kiriSheet, thickness: f32, solid: *mut kiriSolid) -> kiriResult;
     /// Gets the collision points: 3 floats of position (m, world) a point.
     pub fn kiriSheet_GetCollisionPoints(world: *const kiriWorld, sheet: kiriSheet, positions: *mut *const f32, count: *mut i32) -> kiriResult;
-    /// Gets the counts, at no cost.
+    /// Get the counts, at no cost; sum the totals over the frames.
     pub fn kiriSheet_GetCounts(world: *const kiriWorld, sheet: kiriSheet, counts: *mut kiriCounts) -> kiriResult;
-    /// Sums the totals over the frames.
+    /// Get the counts, at no cost; sum the totals over the frames.
     pub fn kiriSheet_GetTotals(world: *const kiriWorld, sheet: kiriSheet, totals: *mut kiriTotals) -> kiriResult;
-    /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
-    /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
-    /// 0 to 1, and 1 with too few frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It
-    /// allocates memory. The manual says how good it is (accuracy).
+    /// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0
+    /// to 1; 1: too few frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory
+    /// (manual, accuracy).
     pub fn kiriSheet_EstimateError(world: *const kiriWorld, sheet: kiriSheet, relative: *mut f64) -> kiriResult;
     /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
     /// kiriSheet_Wake wakes all.
@@ -1218,10 +1175,9 @@ unsafe extern "C" {
     /// kiriSheet_Wake wakes all.
     pub fn kiriSheet_Wake(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
     /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
-    /// the sheet wakes. The columns of \`rotation\` are the images of the world's axes; a planar
-    /// sheet turns about its normal only. Targets of pins, hinges, clamps and holds move along;
-    /// pins on an obstacle stay on it. The manual has the order of calls that set targets or move
-    /// obstacles (sheets). Pending loads and contacts stay.
+    /// it wakes. The columns of \`rotation\` are the images of the world's axes; a planar sheet
+    /// turns about its normal only. Targets of pins, clamps, hinges and holds move along, but for
+    /// pins on obstacles. Pending loads and contacts stay (manual, sheets).
     pub fn kiriSheet_Transform(world: *mut kiriWorld, sheet: kiriSheet, rotation: *const f32, translation: *const f32) -> kiriResult;
     /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it:
     /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
@@ -1256,19 +1212,16 @@ unsafe extern "C" {
     /// it, and a sheet that is made of it has both.
     pub fn kiriFrame_GetPieceUserData(world: *const kiriWorld, frame: kiriFrame, data: *mut u64) -> kiriResult;
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to maxDistance;
-    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
-    /// sheet until 120 ticks pass without a ray.
+    /// hit-\>triangle -1: it does not.
     pub fn kiriSheet_Raycast(world: *const kiriWorld, sheet: kiriSheet, origin: *const f32, direction: *const f32, maxDistance: f32, hit: *mut kiriHit) -> kiriResult;
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to maxDistance;
-    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
-    /// sheet until 120 ticks pass without a ray.
+    /// hit-\>triangle -1: it does not.
     pub fn kiriWorld_Raycast(world: *const kiriWorld, origin: *const f32, direction: *const f32, maxDistance: f32, sheet: *mut kiriSheet, hit: *mut kiriHit) -> kiriResult;
     /// Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip
     /// that has the point.
     pub fn kiriSheet_GetPoint(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, state: *mut kiriPointState) -> kiriResult;
-    /// Gets the shape functions at a rest point: up to \`capacity\` frames with their weights,
-    /// whose sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many
-    /// there are, also above capacity. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
+    /// Gets the shape functions at a rest point: up to \`capacity\` frames with weights, sum 1, and
+    /// unless null gradients (2 floats, 1/m). \*count: all. KIRI_ERROR_ARGUMENT: outside the sheet.
     /// KIRI_ERROR_STATE: work on a cut is pending.
     pub fn kiriSheet_GetWeights(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, frames: *mut kiriFrame, weights: *mut f32, gradients: *mut f32, capacity: i32, count: *mut i32) -> kiriResult;
     /// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no
@@ -1283,32 +1236,27 @@ unsafe extern "C" {
     /// Get the frames of a piece (\*frames points to \*count ids), and the current index of the
     /// piece with a frame.
     pub fn kiriFrame_GetPiece(world: *const kiriWorld, frame: kiriFrame, piece: *mut i32) -> kiriResult;
-    /// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with
-    /// ids and states, and the motion goes on; cuts stay with the old sheet. A clamp or hinge that
-    /// holds both gets a copy with a new id in the new sheet. KIRI_PENDING: work on a cut is
-    /// pending, or the piece takes more samples than the budget leaves; \*detached is 0. Further
-    /// cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
-    /// KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs
-    /// (cutting).
+    /// Makes a sheet of the piece with this frame. All of the piece moves along, with ids and
+    /// states; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
+    /// new id. KIRI_PENDING: work on a cut is pending, or the budget lacks samples for the piece;
+    /// \*detached is 0, further cuts of the sheet wait, and KIRI_EVENT_PIECE_DETACHED names the
+    /// sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet (manual,
+    /// cutting).
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
-    /// Removes the piece with this frame at once: ids of its frames and pins are stale, and the
-    /// coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done
-    /// the triangles stay in kiriMesh with three equal corners, and kiriCounts counts the piece,
-    /// with a kiriPieceState of all zeros.
+    /// Removes the piece with this frame at once: ids of its frames and pins are stale.
+    /// KIRI_PENDING: while work on a cut is pending its triangles stay with three equal corners,
+    /// and kiriCounts counts it, with a state of zeros.
     pub fn kiriFrame_DestroyPiece(world: *mut kiriWorld, frame: kiriFrame) -> kiriResult;
-    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet;
-    /// frames of one piece count once. All are done or pending, or none if one is refused.
-    /// KIRI_PENDING: some are pending, all in a sheet together. detached\[i\] is the sheet made of
-    /// the piece of frames\[i\], 0 where it is pending.
+    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet:
+    /// all or none. KIRI_PENDING: some are pending, all in a sheet together. detached\[i\]: the
+    /// sheet made of piece of frames\[i\], 0: pending.
     pub fn kiriWorld_DetachPieces(world: *mut kiriWorld, frames: *const kiriFrame, count: i32, detached: *mut kiriSheet) -> kiriResult;
-    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet;
-    /// frames of one piece count once. All are done or pending, or none if one is refused.
-    /// KIRI_PENDING: some are pending, all in a sheet together. detached\[i\] is the sheet made of
-    /// the piece of frames\[i\], 0 where it is pending.
+    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet:
+    /// all or none. KIRI_PENDING: some are pending, all in a sheet together. detached\[i\]: the
+    /// sheet made of piece of frames\[i\], 0: pending.
     pub fn kiriWorld_DestroyPieces(world: *mut kiriWorld, frames: *const kiriFrame, count: i32) -> kiriResult;
-    /// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one.
-    /// \*count is their number. If the largest piece is pending to become a sheet, the largest of
-    /// the others stays, too.
+    /// Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one.
+    /// \*count: their number.
     pub fn kiriSheet_DropCrumbs(world: *mut kiriWorld, sheet: kiriSheet, area: f32, count: *mut i32) -> kiriResult;
     /// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take
     /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
@@ -1326,7 +1274,10 @@ unsafe extern "C" {
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
     /// that it crosses. The cut is already ended.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+    /// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It
+    /// remembers where it is in the material of each layer, and cuts on from there, whatever the
+    /// sheet did. Move it once a tick at least while it is in a sheet. Each layer has a cut, which
+    /// KIRI_EVENT_CUT_FINISHED reports (manual, cutting). \`sheet\` 0: all.
     pub fn kiriBeginBlade(world: *mut kiriWorld, sheet: kiriSheet, blade: *mut kiriBlade) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
     /// ray that a camera casts; each end goes straight. The first call only says where it begins.
@@ -1340,16 +1291,17 @@ unsafe extern "C" {
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Gets the current state.
-    pub fn kiriFrame_GetState(world: *const kiriWorld, frame: kiriFrame, state: *mut kiriFrameState) -> kiriResult;
-    /// Holds the frame: its rest point on the visible surface moves evenly to \`position\` (m,
-    /// world) with \`rotation\` (columns as above; on a planar sheet about its normal) in the next
-    /// tick, and stays there. Null, null: frees it. Material of which held frames carry more than
-    /// half moves through obstacles.
+    /// Holds the frame: its visible rest point moves evenly to \`position\` (m, world) with
+    /// \`rotation\` (columns as above) in the next tick, and stays. Null, null: frees it. Material
+    /// that held frames mostly carry moves through obstacles.
     pub fn kiriFrame_Hold(world: *mut kiriWorld, frame: kiriFrame, position: *const f32, rotation: *const f32) -> kiriResult;
-    /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
-    /// applied to the sheet: means over the last tick that moved the piece, with the frame's own
-    /// weight and change of momentum. Zero for a free one.
+    /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
+    /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and
+    /// change of momentum. Zero for a free frame.
+    pub fn kiriFrame_GetState(world: *const kiriWorld, frame: kiriFrame, state: *mut kiriFrameState) -> kiriResult;
+    /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
+    /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and
+    /// change of momentum. Zero for a free frame.
     pub fn kiriFrame_GetReaction(world: *const kiriWorld, frame: kiriFrame, force: *mut f64, torque: *mut f64) -> kiriResult;
     /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
     /// torque (N m).
@@ -1369,79 +1321,86 @@ unsafe extern "C" {
     pub fn kiriSheet_ApplyImpulse(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, impulse: *const f32) -> kiriResult;
     /// Copies the wind; it blows until the next call.
     pub fn kiriSheet_SetWind(world: *mut kiriWorld, sheet: kiriSheet, wind: *const kiriWind) -> kiriResult;
-    /// Fills the def with its defaults, and stamps it.
+    /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
+    /// KIRI_ERROR_ARGUMENT: outside.
     pub fn kiriDefaultPinDef(def: *mut kiriPinDef);
-    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it
-    /// is outside the sheet.
+    /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
+    /// KIRI_ERROR_ARGUMENT: outside.
     pub fn kiriCreatePin(world: *mut kiriWorld, sheet: kiriSheet, def: *const kiriPinDef, pin: *mut kiriPin) -> kiriResult;
-    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it
-    /// is outside the sheet.
+    /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
+    /// KIRI_ERROR_ARGUMENT: outside.
     pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
-    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
-    /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
-    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
-    /// beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
+    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
+    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
+    /// one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
     pub fn kiriSheet_ClampLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, clamp: *mut kiriPin) -> kiriResult;
-    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
-    /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
-    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
-    /// beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
+    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
+    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
+    /// one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
-    /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
-    /// the next tick and until the next call. The pin moves there evenly within the tick. With
-    /// KIRI_SKINNING_SMOOTH pins hold the visible surface. A clamp that alone holds a piece holds
-    /// the mean of the visible line; else that may be off by 0.5 mm.
+    /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
+    /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
+    /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
+    /// holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
-    /// Sets the target and the rotation of the line's material: columns are the directions of u and
-    /// v and the normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the
-    /// pin holds a point.
+    /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
+    /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
+    /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
+    /// holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetPose(world: *mut kiriWorld, pin: kiriPin, target: *const f32, rotation: *const f32) -> kiriResult;
     /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn kiriPin_SetBreakForce(world: *mut kiriWorld, pin: kiriPin, breakForce: f32) -> kiriResult;
-    /// Gets the current state.
+    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
+    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
+    /// weight.
     pub fn kiriPin_GetState(world: *const kiriWorld, pin: kiriPin, state: *mut kiriPinState) -> kiriResult;
-    /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
-    /// sheet: means over the last tick that moved the piece. All reactions are the weight of a
-    /// sheet at rest, and change its momentum in motion.
+    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
+    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
+    /// weight.
     pub fn kiriPin_GetReaction(world: *const kiriWorld, pin: kiriPin, force: *mut f64, torque: *mut f64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's pins, of all types; \*count is how many there
     /// are.
     pub fn kiriSheet_GetPins(world: *const kiriWorld, sheet: kiriSheet, pins: *mut kiriPin, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Fills the def with its defaults, and stamps it.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On
+    /// failure \*seam is 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is
+    /// planar; models differ (manual, sewing).
     pub fn kiriDefaultSeamDef(def: *mut kiriSeamDef);
-    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is
-    /// planar; the models differ.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On
+    /// failure \*seam is 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is
+    /// planar; models differ (manual, sewing).
     pub fn kiriCreateSeam(world: *mut kiriWorld, def: *const kiriSeamDef, seam: *mut kiriSeam) -> kiriResult;
-    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line has no length or leaves the material; a sheet is
-    /// planar; the models differ.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On
+    /// failure \*seam is 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is
+    /// planar; models differ (manual, sewing).
     pub fn kiriDestroySeam(world: *mut kiriWorld, seam: kiriSeam) -> kiriResult;
-    /// Sets stiffness and restAngle, as in the def.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On
+    /// failure \*seam is 0. KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is
+    /// planar; models differ (manual, sewing).
     pub fn kiriSeam_SetHinge(world: *mut kiriWorld, seam: kiriSeam, stiffness: f32, restAngle: f32) -> kiriResult;
-    /// Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no
-    /// stitch has the index.
+    /// Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT:
+    /// no such index.
     pub fn kiriSeam_GetStitch(world: *const kiriWorld, seam: kiriSeam, index: i32, stitch: *mut kiriStitch) -> kiriResult;
-    /// Gets the number of stitches that are left.
+    /// Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT:
+    /// no such index.
     pub fn kiriSeam_GetCount(world: *const kiriWorld, seam: kiriSeam, stitches: *mut i32) -> kiriResult;
     /// Writes up to \`capacity\` ids of the world's seams; \*count is how many there are.
     pub fn kiriWorld_GetSeams(world: *const kiriWorld, seams: *mut kiriSeam, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
-    /// contact with the point, or rest point, and obstacle of an earlier one starts with the
-    /// earlier impulse.
+    /// Sets the contacts of the next tick alone. One with point and obstacle of an earlier one
+    /// starts with its impulse.
     pub fn kiriSheet_SetContacts(world: *mut kiriWorld, sheet: kiriSheet, contacts: *const kiriContact, count: i32) -> kiriResult;
     /// Gets one result for each contact that was set before the last tick, in that order. A
     /// sleeping piece presses on.
     pub fn kiriSheet_GetContactForces(world: *const kiriWorld, sheet: kiriSheet, forces: *mut *const kiriContactForce, count: *mut i32) -> kiriResult;
-    /// Fills the def with its defaults, and stamps it.
+    /// Fill the def with its defaults; add and destroy an obstacle. On failure \*obstacle is 0.
+    /// Pieces on it wake.
     pub fn kiriDefaultObstacleDef(def: *mut kiriObstacleDef);
-    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
-    /// one wake.
+    /// Fill the def with its defaults; add and destroy an obstacle. On failure \*obstacle is 0.
+    /// Pieces on it wake.
     pub fn kiriCreateObstacle(world: *mut kiriWorld, def: *const kiriObstacleDef, obstacle: *mut kiriObstacle) -> kiriResult;
-    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
-    /// one wake.
+    /// Fill the def with its defaults; add and destroy an obstacle. On failure \*obstacle is 0.
+    /// Pieces on it wake.
     pub fn kiriDestroyObstacle(world: *mut kiriWorld, obstacle: kiriObstacle) -> kiriResult;
     /// Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity),
     /// not to the jump.
@@ -1457,9 +1416,8 @@ unsafe extern "C" {
     pub fn kiriObstacle_SetMass(world: *mut kiriWorld, obstacle: kiriObstacle, mass: f32, inertia: *const f32, centerOfMass: *const f32) -> kiriResult;
     /// Gets the current state.
     pub fn kiriObstacle_GetState(world: *const kiriWorld, obstacle: kiriObstacle, state: *mut kiriObstacleState) -> kiriResult;
-    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
-    /// kiriWorld_Tick): a host needs no obstacles or contacts outside. For moving obstacles add
-    /// their own way.
+    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving
+    /// obstacles add their way.
     pub fn kiriSheet_GetReach(world: *const kiriWorld, sheet: kiriSheet, dt: f32, lower: *mut f32, upper: *mut f32) -> kiriResult;
     /// Fills it with its defaults, and stamps it.
     pub fn kiriDefaultDebugDraw(draw: *mut kiriDebugDraw);

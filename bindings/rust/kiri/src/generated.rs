@@ -402,11 +402,10 @@ pub enum Model {
     /// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
     /// neighbours.
     Links = 0,
-    /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-    /// unknowns a frame: a tick takes about three times as long. From 1e8 Pa on use 8 iterations.
+    /// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns
+    /// (manual, sheets).
     Affine = 1,
-    /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
-    /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures
+    /// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend
     /// (accuracy).
     Points = 2,
 }
@@ -430,9 +429,7 @@ impl Model {
     }
 }
 
-/// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the
-/// drawn mesh. It changes the motion only where something touches or holds the sheet. Collision
-/// points stay on the linear surface.
+/// The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -466,9 +463,8 @@ impl Skinning {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TimeStepping {
-    /// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps
-    /// with a contact, a new or moved pin or hold, a new frame or a fast turn; the manual has
-    /// figures (accuracy).
+    /// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take
+    /// backward Euler.
     SecondOrder = 0,
     /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
     Euler = 1,
@@ -525,9 +521,8 @@ impl PinType {
 }
 
 /// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its
-/// velocities; forces do not move it. A host with an engine sets pose and velocities before each
-/// tick, and applies the impulse of [`Obstacle::state`] to the engine's body after it (manual,
-/// contact). Lengths are up to 1e6 m.
+/// velocities alone: set pose and velocity before a tick, and apply the impulse of its state after
+/// it (manual, contact). Lengths: up to 1e6 m.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -542,8 +537,7 @@ pub enum ObstacleType {
     Box = 3,
     /// radius, height: along the third column
     Cylinder = 4,
-    /// outline: a convex polygon in the plane of the first two columns; height: along the third, 0:
-    /// without end
+    /// outline: convex, in the plane of the first two columns; height along the third, 0: endless
     Prism = 5,
 }
 
@@ -597,9 +591,8 @@ pub const DRAW_ALL: u32 = 2047;
 
 /// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
 /// one allowance: using 30 % of one leaves 70 % of the others. Other work goes on in the next tick.
-/// The tick in which a cut takes effect depends on the budget; the mesh, grid, regions, weights and
-/// sites of frames after all work is done do not, bit for bit. The manual has examples, single
-/// steps that exceed a limit, and the order of turns (budget).
+/// The budget decides when a cut takes effect; the mesh, grid, regions, weights and sites of frames
+/// after all work is done do not depend on it (manual, budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Budget {
@@ -652,25 +645,20 @@ pub struct Profile {
     pub samples_refreshed: i32,
     /// Items in the units of [`Budget`]. An item that takes more work counts more than once.
     pub solver_iterations: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: [`Counts`]).
     pub cells_changed: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: [`Counts`]).
     pub weights_changed: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: [`Counts`]).
     pub vertices_changed: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: [`Counts`]).
     pub points_changed: i32,
-    /// Changes by commits: cells that are new or have other material, cells with other weights,
-    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
-    /// the totals.
+    /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
+    /// (totals: [`Counts`]).
     pub links_changed: i32,
     /// sheets in which a cut took effect
     pub commits: i32,
@@ -882,19 +870,14 @@ pub struct SheetDef<'a> {
     pub material: Material,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub grid_resolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0:
-    /// 1e-4 of the longer side. The manual has more (cutting)
+    /// m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
     pub snap_distance: f32,
-    /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual
-    /// has the rule (meshes).
+    /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: `frame_count` frames are spread evenly, at most one for every two squares of
-    /// material. `frame_count` 0: regions are split, after cuts too, to `frame_length`;
-    /// `frame_length` 0: it follows from accuracy, the relative error of the shape under the
-    /// sheet's own weight. The manual has the rules (accuracy), [`Sheet::estimate_error`] checks
-    /// the result. 0, or 1 and more; default 5
+    /// least; null: `frame_count` frames are spread evenly, at most one for two squares.
+    /// `frame_count` 0: regions are split, after cuts too, to `frame_length`; `frame_length` 0: it
+    /// follows from accuracy, the relative error (manual, accuracy). 0, or 1 and more; default 5
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
@@ -904,10 +887,9 @@ pub struct SheetDef<'a> {
     pub frame_points: Option<&'a [[f32; 2]]>,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
-    /// Re-sampling (section 5 of the paper): a frame whose weight exceeds `rigid_weight` over an
-    /// area larger than `rigid_area` (m^2) gets new frames beside it; a new sheet only with
-    /// `frame_count` 0. `rigid_area` 0: a quarter of the area of a frame at the start. A rigid
-    /// sheet has `frame_count` 1 and `max_frames` 1. The manual says when (accuracy). default 0.95
+    /// Re-sampling: a frame whose weight exceeds `rigid_weight` over an area larger than
+    /// `rigid_area` (m^2) gets new frames beside it; a new sheet only with `frame_count` 0.
+    /// `rigid_area` 0: a quarter of a frame's area (manual, accuracy). default 0.95
     pub rigid_weight: f32,
     /// default 0
     pub rigid_area: f32,
@@ -932,17 +914,13 @@ pub struct SheetDef<'a> {
     pub collision_points: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
-    /// budget). Default 0.001; 0: no piece sleeps.
+    /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleep_speed: f32,
     /// KIRI_MODEL_..., default [`Model::Links`]
     pub model: Model,
     /// KIRI_SKINNING_..., default [`Skinning::Linear`]
     pub skinning: Skinning,
-    /// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities,
-    /// forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an
-    /// affine one 6. Default 0.
+    /// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
     pub planar: bool,
     /// KIRI_TIME_STEPPING_..., default [`TimeStepping::SecondOrder`]
     pub time_stepping: TimeStepping,
@@ -1081,9 +1059,7 @@ pub struct SheetSettings {
     pub self_contact: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
-    /// budget). Default 0.001; 0: no piece sleeps.
+    /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleep_speed: f32,
     /// KIRI_SKINNING_..., default [`Skinning::Linear`]
     pub skinning: Skinning,
@@ -1138,10 +1114,9 @@ impl SheetSettings {
     }
 }
 
-/// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The
-/// sheet stays in one piece, and each side of the line has its own control frames. Lines may end in
-/// the material, meet and cross; two lines in one place add their stiffness. Cuts go through a
-/// fold, or along it. The manual has more (folding).
+/// A straight line of the rest plane along which a sheet folds. The sheet stays in one piece, and
+/// each side has its own frames. Lines may end in the material, meet and cross; cuts go through or
+/// along them (manual, folding).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Fold {
@@ -1153,8 +1128,7 @@ pub struct Fold {
     pub stiffness: f32,
     /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
     pub rest_angle: f32,
-    /// N m per metre: most that it carries, and more with the material's hardening; an angle beyond
-    /// stays. 0: no limit. Only in a material with a `yield_stress`
+    /// N m per metre: it bends for good beyond, with a `yield_stress`. 0: no limit
     pub yield_moment: f32,
 }
 
@@ -1182,8 +1156,8 @@ impl Fold {
     }
 }
 
-/// A fold, its angle (rad, as `rest_angle`; the mean over its length) and the length (m) along
-/// which two sides are joined: 0 where all of it is cut, or inside one region.
+/// A fold, its mean angle (rad, as `rest_angle`) and the length (m) along which it joins two sides:
+/// not cut, nor rigid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct FoldState {
@@ -1217,10 +1191,9 @@ impl FoldState {
     }
 }
 
-/// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
-/// sheets). revision grows when indices or vertices are added or changed. Rest positions are
-/// floats; `source_triangles` and `source_weights` have the precision of the library, 2^-29 of the
-/// sheet.
+/// The triangles to draw, as after the last tick, with the detail layer (manual, sheets). revision
+/// grows when indices or vertices are added or changed. Sources have the precision of the library,
+/// 2^-29 of the sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// 3 a vertex, m, world
@@ -1291,9 +1264,8 @@ impl Range {
     }
 }
 
-/// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change
-/// in every tick. Other data of a vertex, and the corners of a triangle, change only in these
-/// ranges.
+/// Changes of the mesh, for hosts that keep a copy: of all but positions and normals, which change
+/// in every tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Dirty {
@@ -1530,21 +1502,20 @@ impl PointState {
     }
 }
 
-/// A connected part of a sheet. Any of its frames names it. Indices from 0 to [`Counts`].pieces
-/// visit all pieces; they change when a piece comes off or goes, and [`Frame::piece`] returns the
-/// current one. A cut with pending work has not separated anything yet. Momentum is about the
-/// world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices go from 0 to [`Counts`].pieces,
+/// and change when a piece comes off or goes ([`Frame::piece`]). Cuts with pending work have
+/// separated nothing yet.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceState {
     /// m^2, kg
     pub area: f64,
     /// m^2, kg
     pub mass: f64,
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub center: [f64; 3],
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub momentum: [f64; 3],
-    /// of mass, m; kg m/s; kg m^2/s
+    /// of mass, m; kg m/s, kg m^2/s about the origin
     pub angular_momentum: [f64; 3],
     /// m, world: the smallest box around its vertices
     pub lower: [f32; 3],
@@ -1657,9 +1628,9 @@ impl FrameState {
     }
 }
 
-/// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
-/// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
-/// All zero: none. A sheet can sleep in constant wind, and still air (zero velocity) resists.
+/// Air past the sheet. v is the velocity of the air less the material's, n the normal: each square
+/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet
+/// can sleep in wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Wind {
@@ -1787,11 +1758,10 @@ impl PinState {
     }
 }
 
-/// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both
-/// lines are divided into the same parts of their lengths, and stitches join these points. A stitch
-/// belongs to its two points: cuts go through a seam, and pieces that come off or become sheets
-/// keep their stitches. It ends with the piece of one of them. The manual has lines, hinges and
-/// breaking (sewing).
+/// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the
+/// same parts, and stitches join these points. A stitch belongs to its two points: cuts go through
+/// a seam, and pieces keep their stitches. It ends with the piece of one of its points (manual,
+/// sewing).
 #[derive(Clone, Copy, Debug)]
 pub struct SeamDef<'a> {
     /// of the same model, and not planar
@@ -1896,9 +1866,8 @@ impl Stitch {
 }
 
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
-/// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
-/// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
-/// little and does nothing.
+/// upper side, with Coulomb friction. The host computes planes from the visible surface for each
+/// tick. Planes out of reach do nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Contact {
@@ -2275,10 +2244,9 @@ pub fn result_text(result: ResultCode) -> &'static str {
     unsafe { text(sys::kiriGetResultText(result as i32)) }
 }
 
-/// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of
-/// several. Cuts and linear systems share the time as in the profile. Sets only the limits for
-/// which the profile recorded work. The host chooses by its clock, so a replay must set the same
-/// budgets.
+/// Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of
+/// several. Sets only limits for which it recorded work. The host chooses by its clock, so a replay
+/// must set the same budgets.
 pub fn fit_budget(profile: &Profile, microseconds: f32, budget: &mut Budget) -> Result<()> {
     // SAFETY: pointers are to what is named, and lengths are theirs.
     fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) })?;
@@ -2312,8 +2280,8 @@ pub fn quality(preset: QualityPreset) -> Result<Quality> {
     Ok(Quality::from_raw(&quality))
 }
 
-/// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns + 1)
-/// \* (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
+/// Fills in the mesh of [`World::create_rectangle`]: 2 (columns + 1) (rows + 1) floats and 6
+/// columns rows indices.
 pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Result<(Vec<[f32; 2]>, Vec<[i32; 3]>)> {
     let mut rest_positions = vec![[f32::default(); 2]; (2 * (columns.clamp(0, 4096) as usize + 1) * (rows.clamp(0, 4096) as usize + 1)) / 2];
     let mut indices = vec![[i32::default(); 3]; (6 * columns.clamp(0, 4096) as usize * rows.clamp(0, 4096) as usize) / 3];
@@ -2336,9 +2304,8 @@ impl World {
         Ok(Status::of(result))
     }
 
-    /// Moves the origin of the world to a point (m): subtracts it from all positions, as large
-    /// worlds need because of floats. The motion goes on as before, to rounding; nothing wakes. The
-    /// host shifts its own data. Returned arrays keep the old positions until the next tick.
+    /// Moves the origin of the world to a point (m), as large worlds need: subtracts it from all
+    /// positions. Nothing wakes. Returned arrays keep the old positions until the next tick.
     /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
     pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2360,9 +2327,8 @@ impl World {
         Ok(())
     }
 
-    /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
-    /// same calls have the same hash, and two worlds with the same hash go on alike. After refused
-    /// memory it may differ while work is pending.
+    /// Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike
+    /// (manual, budget).
     pub fn state_hash(&self) -> Result<u64> {
         let mut hash: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2390,19 +2356,17 @@ impl World {
         Ok(sheets)
     }
 
-    /// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a
-    /// player pressed. A replay stops there. The world does not change; without a recording nothing
-    /// happens.
+    /// Writes 1 to KIRI_MOST_NOTE_BYTES bytes of the host to the recording, such as pressed keys. A
+    /// replay stops there.
     pub fn note(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Note(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i32) }, self)?;
         Ok(())
     }
 
-    /// Writes the world to memory with room for capacity bytes; null: counts them only. \*size:
-    /// bytes of the save. [`ResultCode::ErrorArgument`]: capacity is less than \*size; nothing is
-    /// written. [`ResultCode::Pending`]: a cut is being worked on; \*size is 0, and nothing is
-    /// written. Save after a later tick, or after [`World::finish_cuts`].
+    /// Writes the world to memory with room for capacity bytes; null: only counts them. \*size:
+    /// bytes of the save. [`ResultCode::ErrorArgument`]: capacity is less. [`ResultCode::Pending`]:
+    /// a cut is pending ([`World::finish_cuts`]); \*size is 0.
     pub fn save(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
@@ -2431,10 +2395,10 @@ impl World {
     }
 
     /// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a
-    /// malicious save may give a strange world but cannot crash the program, and takes memory in
-    /// proportion to its size, which is below 2^31. Arrays that the old world handed out live until
-    /// the next tick. On failure nothing has changed: [`ResultCode::ErrorData`]: the bytes are not
-    /// a save, damaged, or of another version. [`ResultCode::ErrorMemory`].
+    /// malicious save cannot crash the program, and takes memory in proportion to its size, which
+    /// is below 2^31. Old arrays live until the next tick. On failure nothing has changed:
+    /// [`ResultCode::ErrorData`]: not a save, damaged, or of another version.
+    /// [`ResultCode::ErrorMemory`].
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
@@ -2481,9 +2445,9 @@ impl World {
         Ok(Profile::from_raw(&profile))
     }
 
-    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
-    /// [`ResultCode::ErrorMesh`]: the triangles do not form a sheet; the line says why, and names
-    /// the triangle, or the two at an edge, by index in the def.
+    /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
+    /// frames and pins. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles form no
+    /// sheet; the line names them by index in the def.
     pub fn create_sheet(&mut self, def: &SheetDef<'_>) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2502,8 +2466,8 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index.
-    /// [`ResultCode::ErrorArgument`]: the model is not [`Model::Links`].
+    /// Adds a sheet with 1 to 65536 folds, copied in order. [`ResultCode::ErrorArgument`]: the
+    /// model is not [`Model::Links`].
     pub fn create_folded_sheet(&mut self, def: &SheetDef<'_>, folds: &[Fold]) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2512,8 +2476,7 @@ impl World {
     }
 
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
-    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
-    /// sheet until 120 ticks pass without a ray.
+    /// hit-\>triangle -1: it does not.
     pub fn raycast(&self, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
         let mut sheet = 0;
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
@@ -2524,10 +2487,9 @@ impl World {
         Ok((hit.triangle >= 0).then(|| (Sheet::known(sheet), Hit::from_raw(&hit))))
     }
 
-    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet;
-    /// frames of one piece count once. All are done or pending, or none if one is refused.
-    /// [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\] is the
-    /// sheet made of the piece of frames\[i\], 0 where it is pending.
+    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet: all
+    /// or none. [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\]:
+    /// the sheet made of piece of frames\[i\], 0: pending.
     pub fn detach_pieces(&mut self, frames: &[Frame]) -> Result<Vec<Option<Sheet>>> {
         let mut detached = vec![None::<Sheet>; frames.len()];
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2535,17 +2497,19 @@ impl World {
         Ok(detached)
     }
 
-    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet;
-    /// frames of one piece count once. All are done or pending, or none if one is refused.
-    /// [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\] is the
-    /// sheet made of the piece of frames\[i\], 0 where it is pending.
+    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet: all
+    /// or none. [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\]:
+    /// the sheet made of piece of frames\[i\], 0: pending.
     pub fn destroy_pieces(&mut self, frames: &[Frame]) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_DestroyPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32) }, self)?;
         Ok(Status::of(result))
     }
 
-    /// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
+    /// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It
+    /// remembers where it is in the material of each layer, and cuts on from there, whatever the
+    /// sheet did. Move it once a tick at least while it is in a sheet. Each layer has a cut, which
+    /// [`EventType::CutFinished`] reports (manual, cutting). sheet 0: all.
     pub fn begin_blade(&mut self, sheet: Option<Sheet>) -> Result<Blade> {
         let mut blade = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2553,9 +2517,9 @@ impl World {
         Ok(Blade::known(blade))
     }
 
-    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line has no length or leaves the material; a
-    /// sheet is planar; the models differ.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and `rest_angle`.
+    /// On failure \*seam is 0. [`ResultCode::ErrorArgument`]: a line is empty or leaves the
+    /// material; a sheet is planar; models differ (manual, sewing).
     pub fn create_seam(&mut self, def: &SeamDef<'_>) -> Result<Seam> {
         let mut seam = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2582,8 +2546,8 @@ impl World {
         Ok(seams)
     }
 
-    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
-    /// one wake.
+    /// Fill the def with its defaults; add and destroy an obstacle. On failure \*obstacle is 0.
+    /// Pieces on it wake.
     pub fn create_obstacle(&mut self, def: &ObstacleDef<'_>) -> Result<Obstacle> {
         let mut obstacle = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2593,16 +2557,18 @@ impl World {
 }
 
 impl Sheet {
-    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
-    /// [`ResultCode::ErrorMesh`]: the triangles do not form a sheet; the line says why, and names
-    /// the triangle, or the two at an edge, by index in the def.
+    /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
+    /// frames and pins. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles form no
+    /// sheet; the line names them by index in the def.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySheet(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// Gets the current settings, stamped for [`Sheet::set_settings`].
+    /// Get the current settings, and set all or none, with the checks of [`World::create_sheet`].
+    /// [`ResultCode::ErrorDef`]: they do not come from [`Sheet::settings`]. It wakes if one
+    /// differs. Motion, stiffness of pins and frames stay.
     pub fn settings(self, world: &World) -> Result<SheetSettings> {
         let mut settings = MaybeUninit::<sys::kiriSheetSettings>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2612,19 +2578,17 @@ impl Sheet {
         Ok(SheetSettings::from_raw(&settings))
     }
 
-    /// Sets all settings, or none; checks them as [`World::create_sheet`] does.
-    /// [`ResultCode::ErrorDef`]: they do not come from [`Sheet::settings`]. The sheet wakes if one
-    /// differs. Positions and velocities are kept, so a new mass changes the momentum; the
-    /// stiffness of pins and the lengths that placed the frames are kept, too.
+    /// Get the current settings, and set all or none, with the checks of [`World::create_sheet`].
+    /// [`ResultCode::ErrorDef`]: they do not come from [`Sheet::settings`]. It wakes if one
+    /// differs. Motion, stiffness of pins and frames stay.
     pub fn set_settings(self, world: &mut World, settings: &SheetSettings) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetSettings(world.raw_mut(), self.raw(), &settings.raw()) }, world)?;
         Ok(())
     }
 
-    /// Adds a fold to a sheet; its index is the count of folds before. The next ticks make the
-    /// fold, on the budget of cuts, until a [`EventType::CutFinished`]. A side without a frame gets
-    /// one. The fold starts without a moment, and moves to its rest angle within `fade_time`.
+    /// Adds a fold; its index is the count of folds before. The next ticks make it, on the budget
+    /// of cuts, until a [`EventType::CutFinished`]. It moves to its rest angle within `fade_time`.
     /// Errors as of [`World::create_folded_sheet`].
     pub fn add_fold(self, world: &mut World, fold: &Fold) -> Result<i32> {
         let mut index: i32 = Default::default();
@@ -2674,10 +2638,9 @@ impl Sheet {
         Ok(Dirty::from_raw(&dirty))
     }
 
-    /// Copies the index that each vertex had when the last call of [`World::tick`] began, for hosts
-    /// that draw between two ticks; -1: it did not exist. \*from: the sheet that had the vertices
-    /// then. A vertex that a cut separated from another gets the index of the other. The manual has
-    /// the code (drawing).
+    /// Copies the index that each vertex had when the last tick began, to draw between two ticks;
+    /// -1: it did not exist. \*from: the sheet that had them then. A vertex that a cut separated
+    /// has the other's index (manual, drawing).
     pub fn copy_previous(self, world: &World, first: i32, vertices: &mut [i32]) -> Result<Sheet> {
         let mut from = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2693,20 +2656,18 @@ impl Sheet {
         Ok(())
     }
 
-    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
-    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
-    /// a seam that `weld_distance` closed. The manual has the code (meshes).
+    /// Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was
+    /// removed. Weights: 9 floats each, the barycentric coordinates of its three corners there,
+    /// also beside a welded seam (manual, meshes).
     pub fn copy_sources(self, world: &World, first_triangle: i32, sources: &mut [i32]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_CopySources(world.raw(), self.raw(), first_triangle, sources.len() as i32, sources.as_mut_ptr().cast()) })?;
         Ok(())
     }
 
-    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
-    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
-    /// a seam that `weld_distance` closed. The manual has the code (meshes).
+    /// Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was
+    /// removed. Weights: 9 floats each, the barycentric coordinates of its three corners there,
+    /// also beside a welded seam (manual, meshes).
     pub fn copy_source_weights(self, world: &World, first_triangle: i32, weights: &mut [[f32; 9]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_CopySourceWeights(world.raw(), self.raw(), first_triangle, weights.len() as i32, weights.as_mut_ptr().cast()) })?;
@@ -2732,7 +2693,7 @@ impl Sheet {
         Ok(unsafe { view(positions, count) })
     }
 
-    /// Gets the counts, at no cost.
+    /// Get the counts, at no cost; sum the totals over the frames.
     pub fn counts(self, world: &World) -> Result<Counts> {
         let mut counts = MaybeUninit::<sys::kiriCounts>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2742,7 +2703,7 @@ impl Sheet {
         Ok(Counts::from_raw(&counts))
     }
 
-    /// Sums the totals over the frames.
+    /// Get the counts, at no cost; sum the totals over the frames.
     pub fn totals(self, world: &World) -> Result<Totals> {
         let mut totals = MaybeUninit::<sys::kiriTotals>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2752,10 +2713,9 @@ impl Sheet {
         Ok(Totals::from_raw(&totals))
     }
 
-    /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
-    /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
-    /// 0 to 1, and 1 with too few frames to tell. [`Model::Links`] only; else
-    /// [`ResultCode::ErrorState`]. It allocates memory. The manual says how good it is (accuracy).
+    /// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0
+    /// to 1; 1: too few frames to tell. [`ResultCode::ErrorState`]: not [`Model::Links`]. It
+    /// allocates memory (manual, accuracy).
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2781,10 +2741,9 @@ impl Sheet {
     }
 
     /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
-    /// the sheet wakes. The columns of rotation are the images of the world's axes; a planar sheet
-    /// turns about its normal only. Targets of pins, hinges, clamps and holds move along; pins on
-    /// an obstacle stay on it. The manual has the order of calls that set targets or move obstacles
-    /// (sheets). Pending loads and contacts stay.
+    /// it wakes. The columns of rotation are the images of the world's axes; a planar sheet turns
+    /// about its normal only. Targets of pins, clamps, hinges and holds move along, but for pins on
+    /// obstacles. Pending loads and contacts stay (manual, sheets).
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
@@ -2820,8 +2779,7 @@ impl Sheet {
     }
 
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
-    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
-    /// sheet until 120 ticks pass without a ray.
+    /// hit-\>triangle -1: it does not.
     pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2842,10 +2800,9 @@ impl Sheet {
         Ok(PointState::from_raw(&state))
     }
 
-    /// Gets the shape functions at a rest point: up to capacity frames with their weights, whose
-    /// sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there
-    /// are, also above capacity. [`ResultCode::ErrorArgument`]: the point is outside the sheet.
-    /// [`ResultCode::ErrorState`]: work on a cut is pending.
+    /// Gets the shape functions at a rest point: up to capacity frames with weights, sum 1, and
+    /// unless null gradients (2 floats, 1/m). \*count: all. [`ResultCode::ErrorArgument`]: outside
+    /// the sheet. [`ResultCode::ErrorState`]: work on a cut is pending.
     pub fn weights(self, world: &World, rest_point: [f32; 2]) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
         let mut frames = Vec::<Frame>::new();
         let mut weights = Vec::<f32>::new();
@@ -2902,9 +2859,8 @@ impl Sheet {
         Ok(unsafe { view(frames, count) })
     }
 
-    /// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one.
-    /// \*count is their number. If the largest piece is pending to become a sheet, the largest of
-    /// the others stays, too.
+    /// Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one.
+    /// \*count: their number.
     pub fn drop_crumbs(self, world: &mut World, area: f32) -> Result<i32> {
         let mut count: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2991,8 +2947,8 @@ impl Sheet {
         Ok(())
     }
 
-    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0.
-    /// [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: outside.
     pub fn create_pin(self, world: &mut World, def: &PinDef) -> Result<Pin> {
         let mut pin = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3000,12 +2956,10 @@ impl Sheet {
         Ok(Pin::known(pin))
     }
 
-    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
-    /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
-    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
-    /// beside it holds one. The ends differ. [`ResultCode::ErrorArgument`]: the line meets no
-    /// material.
+    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
+    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
+    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
+    /// one. [`ResultCode::ErrorArgument`]: equal ends, or no material.
     pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3013,12 +2967,10 @@ impl Sheet {
         Ok(Pin::known(clamp))
     }
 
-    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
-    /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
-    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
-    /// beside it holds one. The ends differ. [`ResultCode::ErrorArgument`]: the line meets no
-    /// material.
+    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
+    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
+    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
+    /// one. [`ResultCode::ErrorArgument`]: equal ends, or no material.
     pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3045,9 +2997,8 @@ impl Sheet {
         Ok(pins)
     }
 
-    /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
-    /// contact with the point, or rest point, and obstacle of an earlier one starts with the
-    /// earlier impulse.
+    /// Sets the contacts of the next tick alone. One with point and obstacle of an earlier one
+    /// starts with its impulse.
     pub fn set_contacts(self, world: &mut World, contacts: &[Contact]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetContacts(world.raw_mut(), self.raw(), contacts.as_ptr().cast(), contacts.len() as i32) }, world)?;
@@ -3064,9 +3015,8 @@ impl Sheet {
         Ok(unsafe { view(forces, count) })
     }
 
-    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
-    /// [`World::tick`]): a host needs no obstacles or contacts outside. For moving obstacles add
-    /// their own way.
+    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving
+    /// obstacles add their way.
     pub fn reach(self, world: &World, dt: f32) -> Result<([f32; 3], [f32; 3])> {
         let mut lower: [f32; 3] = Default::default();
         let mut upper: [f32; 3] = Default::default();
@@ -3114,13 +3064,12 @@ impl Frame {
         Ok(piece)
     }
 
-    /// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with
-    /// ids and states, and the motion goes on; cuts stay with the old sheet. A clamp or hinge that
-    /// holds both gets a copy with a new id in the new sheet. [`ResultCode::Pending`]: work on a
-    /// cut is pending, or the piece takes more samples than the budget leaves; \*detached is 0.
-    /// Further cuts of the sheet then wait, and [`EventType::PieceDetached`] names the sheet in a
-    /// later tick. [`ResultCode::ErrorState`]: nothing would be left of the sheet. The manual has
-    /// indices and costs (cutting).
+    /// Makes a sheet of the piece with this frame. All of the piece moves along, with ids and
+    /// states; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
+    /// new id. [`ResultCode::Pending`]: work on a cut is pending, or the budget lacks samples for
+    /// the piece; \*detached is 0, further cuts of the sheet wait, and [`EventType::PieceDetached`]
+    /// names the sheet in a later tick. [`ResultCode::ErrorState`]: nothing would be left of the
+    /// sheet (manual, cutting).
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3128,17 +3077,27 @@ impl Frame {
         Ok(Sheet::from_raw(detached))
     }
 
-    /// Removes the piece with this frame at once: ids of its frames and pins are stale, and the
-    /// coming ticks have fewer samples. [`ResultCode::Pending`]: work on a cut is pending. Until it
-    /// is done the triangles stay in [`Mesh`] with three equal corners, and [`Counts`] counts the
-    /// piece, with a [`PieceState`] of all zeros.
+    /// Removes the piece with this frame at once: ids of its frames and pins are stale.
+    /// [`ResultCode::Pending`]: while work on a cut is pending its triangles stay with three equal
+    /// corners, and [`Counts`] counts it, with a state of zeros.
     pub fn destroy_piece(self, world: &mut World) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world)?;
         Ok(Status::of(result))
     }
 
-    /// Gets the current state.
+    /// Holds the frame: its visible rest point moves evenly to position (m, world) with rotation
+    /// (columns as above) in the next tick, and stays. Null, null: frees it. Material that held
+    /// frames mostly carry moves through obstacles.
+    pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world)?;
+        Ok(())
+    }
+
+    /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
+    /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and
+    /// change of momentum. Zero for a free frame.
     pub fn state(self, world: &World) -> Result<FrameState> {
         let mut state = MaybeUninit::<sys::kiriFrameState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3148,19 +3107,9 @@ impl Frame {
         Ok(FrameState::from_raw(&state))
     }
 
-    /// Holds the frame: its rest point on the visible surface moves evenly to position (m, world)
-    /// with rotation (columns as above; on a planar sheet about its normal) in the next tick, and
-    /// stays there. Null, null: frees it. Material of which held frames carry more than half moves
-    /// through obstacles.
-    pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
-        // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world)?;
-        Ok(())
-    }
-
-    /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
-    /// applied to the sheet: means over the last tick that moved the piece, with the frame's own
-    /// weight and change of momentum. Zero for a free one.
+    /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
+    /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and
+    /// change of momentum. Zero for a free frame.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -3198,27 +3147,28 @@ impl Pin {
         Ok(data)
     }
 
-    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0.
-    /// [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: outside.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
-    /// the next tick and until the next call. The pin moves there evenly within the tick. With
-    /// [`Skinning::Smooth`] pins hold the visible surface. A clamp that alone holds a piece holds
-    /// the mean of the visible line; else that may be off by 0.5 mm.
+    /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
+    /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
+    /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
+    /// holds the visible surface. [`ResultCode::ErrorArgument`]: a point.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// Sets the target and the rotation of the line's material: columns are the directions of u and
-    /// v and the normal. On a planar sheet it is about the sheet's normal.
-    /// [`ResultCode::ErrorArgument`]: the pin holds a point.
+    /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
+    /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
+    /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
+    /// holds the visible surface. [`ResultCode::ErrorArgument`]: a point.
     pub fn set_pose(self, world: &mut World, target: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world)?;
@@ -3232,7 +3182,9 @@ impl Pin {
         Ok(())
     }
 
-    /// Gets the current state.
+    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
+    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
+    /// weight.
     pub fn state(self, world: &World) -> Result<PinState> {
         let mut state = MaybeUninit::<sys::kiriPinState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3242,9 +3194,9 @@ impl Pin {
         Ok(PinState::from_raw(&state))
     }
 
-    /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
-    /// sheet: means over the last tick that moved the piece. All reactions are the weight of a
-    /// sheet at rest, and change its momentum in motion.
+    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
+    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
+    /// weight.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -3302,24 +3254,26 @@ impl Blade {
 }
 
 impl Seam {
-    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
-    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line has no length or leaves the material; a
-    /// sheet is planar; the models differ.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and `rest_angle`.
+    /// On failure \*seam is 0. [`ResultCode::ErrorArgument`]: a line is empty or leaves the
+    /// material; a sheet is planar; models differ (manual, sewing).
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// Sets stiffness and `rest_angle`, as in the def.
+    /// Fill the def with its defaults; create and destroy a seam; set stiffness and `rest_angle`.
+    /// On failure \*seam is 0. [`ResultCode::ErrorArgument`]: a line is empty or leaves the
+    /// material; a sheet is planar; models differ (manual, sewing).
     pub fn set_hinge(self, world: &mut World, stiffness: f32, rest_angle: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSeam_SetHinge(world.raw_mut(), self.raw(), stiffness, rest_angle) }, world)?;
         Ok(())
     }
 
-    /// Gets a stitch of those that are left, in the order of the lines.
-    /// [`ResultCode::ErrorArgument`]: no stitch has the index.
+    /// Get a stitch that is left, in the order of the lines, and their number.
+    /// [`ResultCode::ErrorArgument`]: no such index.
     pub fn stitch(self, world: &World, index: i32) -> Result<Stitch> {
         let mut stitch = MaybeUninit::<sys::kiriStitch>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3329,7 +3283,8 @@ impl Seam {
         Ok(Stitch::from_raw(&stitch))
     }
 
-    /// Gets the number of stitches that are left.
+    /// Get a stitch that is left, in the order of the lines, and their number.
+    /// [`ResultCode::ErrorArgument`]: no such index.
     pub fn count(self, world: &World) -> Result<i32> {
         let mut stitches: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3339,8 +3294,8 @@ impl Seam {
 }
 
 impl Obstacle {
-    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
-    /// one wake.
+    /// Fill the def with its defaults; add and destroy an obstacle. On failure \*obstacle is 0.
+    /// Pieces on it wake.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyObstacle(world.raw_mut(), self.raw()) }, world)?;
