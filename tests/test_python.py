@@ -623,6 +623,16 @@ def test_example():
         assert "came off" in lines[0] and "state hash" in lines[-1]
 
 
+def test_pieces_are_plotted():
+    if subprocess.run([sys.executable, "-c", "import numpy, matplotlib"], capture_output=True).returncode:
+        print("no numpy or no matplotlib: pieces.py not tested")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        picture = pathlib.Path(folder) / "pieces.png"
+        lines = run_python(str(repository / "bindings/python/pieces.py"), str(picture)).stdout.splitlines()
+        assert lines == ["3 pieces"] and picture.read_bytes().startswith(b"\x89PNG")
+
+
 def test_example_says_what_is_missing():
     for word, setting in (("needs cffi", "sys.modules['cffi'] = None"),
                           ("make lib", "os.environ['KIRI_LIBRARY'] = '/nowhere/libkiri.so'")):
