@@ -32,6 +32,7 @@ bool Debug_IsWanted(const DebugOptions* options)
 
 bool Debug_DrawLines(Debug* debug, const Scene* scene, const DebugOptions* options)
 {
+    const uint32_t around = KIRI_DRAW_CONTACTS | KIRI_DRAW_OBSTACLES | KIRI_DRAW_PINS | KIRI_DRAW_BLADES;
     const struct {
         bool wanted;
         uint32_t flags;
@@ -39,12 +40,13 @@ bool Debug_DrawLines(Debug* debug, const Scene* scene, const DebugOptions* optio
     } all[] = { { options->points, KIRI_DRAW_POINTS, LINES_POINTS },
                 { options->links, KIRI_DRAW_LINKS, LINES_LINES },
                 { options->links, KIRI_DRAW_FRAMES, LINES_POINTS },
-                { options->axes, KIRI_DRAW_FRAMES, LINES_LINES } };
+                { options->axes, KIRI_DRAW_FRAMES, LINES_LINES },
+                { options->contacts, around, LINES_POINTS | LINES_LINES } };
     bool fine = true;
     Lines_Clear(&debug->lines);
     for (size_t i = 0; fine && i < sizeof all / sizeof all[0]; i++) {
-        fine = !all[i].wanted || Lines_Add(&debug->lines, scene->world, scene->sheet, all[i].flags,
-                                           0.05f * scene->type->size, all[i].kinds);
+        fine = !all[i].wanted || Lines_Add(&debug->lines, scene->world, all[i].flags == around ? 0 : scene->sheet,
+                                           all[i].flags, 0.05f * scene->type->size, all[i].kinds);
     }
     return fine;
 }

@@ -11,7 +11,7 @@ enum { RASTER_SIZE = 768, DEBUG_MAX_FRAMES = 1024 };
 
 typedef struct DebugOptions {
     int32_t weightsOf; /* a frame's number; DEBUG_ALL_FRAMES; or DEBUG_NO_FRAME */
-    bool regions, links, cells, points, axes;
+    bool regions, links, cells, points, axes, contacts;
 } DebugOptions;
 
 enum { DEBUG_NO_FRAME = -2, DEBUG_ALL_FRAMES = -1 };

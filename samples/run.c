@@ -9,6 +9,7 @@
 #include "run_options.h"
 #include "scene.h"
 #include "scene_record.h"
+#include "sheets.h"
 
 #include <errno.h>
 #include <math.h>
@@ -48,6 +49,7 @@ typedef struct Film {
     Apng moving; /* if options say so */
     Glb model;   /* the same */
     Debug debug;
+    Sheets sheets;
     int32_t pictures, moments;
 } Film;
 
@@ -62,6 +64,7 @@ static void Film_Destroy(Film* film)
     Apng_Close(&film->moving);
     Glb_Free(&film->model);
     Debug_Destroy(&film->debug);
+    Sheets_Free(&film->sheets);
 }
 
 static bool OpenMoving(Film* film, const Options* options, int32_t ticks)
@@ -162,7 +165,13 @@ static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
                   .pinCount = scene->pinCount,
                   .pegs = scene->type->pegs };
     float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
-    kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
+    if (Debug_IsWanted(&options->debug)) { /* a raster over the rest plane is of one sheet */
+        kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
+    } else if (Sheets_Take(&film->sheets, scene->world)) {
+        view.mesh = film->sheets.mesh;
+    } else {
+        return false;
+    }
     if (options->solid > 0 && !TakeSolid(&view, scene, 1e-3f * (float)options->solid)) {
         return false;
     }

@@ -15,7 +15,7 @@ void Options_PrintHelp(void)
            "  --drawing FILE        borders and cuts at the end: FOLD if the name ends so, else SVG\n"
            "  --export FILE         the sheets in motion, a mesh for each picture: binary glTF 2.0 (.glb)\n"
            "  --record FILE         all calls of the library, to be replayed\n"
-           "  --replay FILE         a recording instead of a scene's script\n"
+           "  --replay FILE         a recording, or a save, instead of a scene's script\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
            "  --ticks N             sixtieths of a second to run (the scene's own)\n"
            "  --size WxH            of a picture, in pixels, 100x100 or more (640x480)\n"
@@ -34,6 +34,7 @@ void Options_PrintHelp(void)
            "  --links               show which regions touch\n"
            "  --cells               show the grid, and which of its squares the cuts divide\n"
            "  --points              show the collision points\n"
+           "  --contacts            show contacts, obstacles, pins and blades of the world\n"
            "  --quiet               no progress line\n"
            "  --help\n\nScenes:\n");
     for (int32_t i = 0; Scene_GetType(i) != NULL; i++) {
@@ -75,6 +76,7 @@ static bool ReadFlag(const char* name, Options* options)
                   { "--links", &options->debug.links },
                   { "--cells", &options->debug.cells },
                   { "--points", &options->debug.points },
+                  { "--contacts", &options->debug.contacts },
                   { "--plain", &options->plain },
                   { "--smooth", &options->smooth },
                   { "--paper", &options->asPaper } };

@@ -1,5 +1,8 @@
 #include "scene_record.h"
 
+#include "sheets.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,6 +158,11 @@ static void FindSheet(Scene* scene)
 
 kiriResult SceneReplay_Tick(SceneReplay* replay, Scene* scene)
 {
+    if (replay->isSave) {
+        scene->tick++;
+        kiriResult moved = kiriWorld_Tick(scene->world, 1.0f / 60.0f, 2);
+        return moved == KIRI_OK ? KIRI_PENDING : moved;
+    }
     int64_t ticks = replay->at.ticks;
     kiriResult result = KIRI_PENDING;
     while (result == KIRI_PENDING && replay->at.ticks == ticks) {
@@ -178,12 +186,56 @@ static bool StartScene(Scene* scene, const SceneType* type, const kiriWorldDef* 
     return result == KIRI_OK;
 }
 
+/* Measures the box around all sheets. Without a sheet there is none yet. */
+static void Measure(SceneReplay* replay, const Scene* scene)
+{
+    Sheets sheets = { .positions = NULL };
+    if (Sheets_Take(&sheets, scene->world)) {
+        for (int32_t i = 0; i < 3 * sheets.mesh.vertexCount; i++) {
+            float *lower = &replay->lower[i % 3], *upper = &replay->upper[i % 3], at = sheets.mesh.positions[i];
+            *lower = i < 3 ? at : fminf(*lower, at);
+            *upper = i < 3 ? at : fmaxf(*upper, at);
+        }
+    }
+    Sheets_Free(&sheets);
+}
+
+static float GetSize(const SceneReplay* replay)
+{
+    float size = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        size = fmaxf(size, replay->upper[k] - replay->lower[k]);
+    }
+    return size;
+}
+
+/* A camera before the middle of the box, a little above. */
+static void SetCamera(const SceneReplay* replay, Scene* scene)
+{
+    static const float way[3] = { -0.5f, -2.6f, 0.8f };
+    float size = GetSize(replay);
+    if (size > 0.0f) {
+        scene->paced = *scene->type;
+        scene->paced.size = size;
+        scene->paced.pegs = false;
+        for (int k = 0; k < 3; k++) {
+            scene->paced.camera.target[k] = 0.5f * (replay->lower[k] + replay->upper[k]) / size;
+            scene->paced.camera.eye[k] = scene->paced.camera.target[k] + way[k];
+        }
+        scene->paced.camera.fieldOfView = 38.0f;
+        scene->type = &scene->paced;
+    }
+}
+
 /* All of it, for the number of its ticks and what is wrong with it. */
 static void Check(SceneReplay* replay, Scene* scene)
 {
     kiriResult result = KIRI_PENDING;
     while (result == KIRI_PENDING) {
         result = SceneReplay_Tick(replay, scene);
+        if (GetSize(replay) == 0.0f) {
+            Measure(replay, scene);
+        }
     }
     if (result < 0) {
         fprintf(stderr, "%s\n", kiriWorld_GetLastError(scene->world));
@@ -205,6 +257,15 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, cons
     if (!StartScene(scene, type, def)) {
         return false;
     }
+    replay->isSave = kiriWorld_Load(scene->world, replay->bytes, replay->size) == KIRI_OK;
+    if (replay->isSave) {
+        replay->ticks = SCENE_SAVE_TICKS;
+        replay->isRight = true;
+        FindSheet(scene);
+        Measure(replay, scene);
+        SetCamera(replay, scene);
+        return true;
+    }
     Check(replay, scene);
     if (replay->ticks == 0) {
         fprintf(stderr, "%s has no ticks to show\n", path);
@@ -220,7 +281,9 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, cons
     } else {
         Scene_Stop(scene);
         replay->at = (kiriReplay){ 0 };
-        return StartScene(scene, type, def);
+        bool isFine = StartScene(scene, type, def);
+        SetCamera(replay, scene);
+        return isFine;
     }
     return true;
 }

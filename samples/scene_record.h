@@ -1,4 +1,4 @@
-/* Recordings of scenes (kiriWorld_Replay) in files. Notes in them say what a picture shows beside the sheet, so a
+/* Recordings (kiriWorld_Replay) and saves in files. Notes in them say what a picture shows beside the sheet, so a
    replay looks like the run. */
 #ifndef SCENE_RECORD_H
 #define SCENE_RECORD_H
@@ -22,12 +22,16 @@ typedef struct SceneReplay {
     uint8_t* bytes;
     int64_t size;
     kiriReplay at;
-    int32_t ticks; /* that it has */
-    bool isRight;  /* everything went as recorded */
+    int32_t ticks;            /* that it has; of a save SCENE_SAVE_TICKS */
+    bool isRight;             /* everything went as recorded */
+    bool isSave;              /* bytes of kiriWorld_Save: the world goes on from there */
+    float lower[3], upper[3]; /* m: box around all sheets, in the first tick that has some */
 } SceneReplay;
 
+enum { SCENE_SAVE_TICKS = 600 };
+
 /* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from
-   it. The type: the looks of a recording without a scene. */
+   it. The type: the colours of a recording without a scene, whose camera sees all sheets of its first tick. */
 bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def);
 

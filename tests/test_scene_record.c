@@ -59,6 +59,67 @@ static void TestReplay(void** state)
     remove(filePath);
 }
 
+static void CheckOpened(const SceneReplay* replay, Scene* scene, uint64_t hash)
+{
+    uint64_t found = 0;
+    for (int32_t i = 0; i < 2; i++) {
+        assert_true(fabs((double)(scene->type->size * scene->type->camera.target[i]) - (i == 0 ? 5.5 : 0.5)) < 0.01);
+    }
+    assert_true(fabs((double)scene->type->size - 11.0) < 0.01);
+    assert_true(replay->isRight);
+    kiriWorld_GetStateHash(scene->world, &found);
+    assert_int_equal(found, hash);
+}
+
+/* A recording without a scene, and a save, go on as the world did; the camera looks at the middle of all sheets. */
+static void TestWorldsOfHosts(void** state)
+{
+    static uint8_t bytes[1 << 20];
+    FILE* file;
+    kiriWorld* world;
+    kiriWorldDef def;
+    kiriSheetDef sheetDef;
+    kiriSheet sheet;
+    uint64_t hashes[2];
+    int64_t size = 0;
+    kiriDefaultWorldDef(&def);
+    kiriDefaultSheetDef(&sheetDef);
+    assert_true(SceneRecord_Open(&file, filePath, &def));
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
+    for (int32_t i = 0; i < 2; i++, sheetDef.position[0] += 10.0f) {
+        sheetDef.normals = i;
+        assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 4, 4, &sheetDef, &sheet), KIRI_OK);
+    }
+    for (int32_t i = 0; i < 2; i++) {
+        kiriWorld_Tick(world, 1.0f / 60.0f, 2);
+        kiriWorld_GetStateHash(world, &hashes[i]);
+        if (i == 0) {
+            assert_int_equal(kiriWorld_Save(world, bytes, sizeof bytes, &size), KIRI_OK);
+        }
+    }
+    kiriDestroyWorld(world);
+    assert_true(SceneRecord_Close(file, filePath));
+    for (int32_t pass = 0; pass < 2; pass++) {
+        Scene scene;
+        SceneReplay replay;
+        if (pass == 1) {
+            file = fopen(filePath, "wb");
+            assert_int_equal(fwrite(bytes, 1, (size_t)size, file), size);
+            assert_int_equal(fclose(file), 0);
+        }
+        kiriDefaultWorldDef(&def);
+        assert_true(SceneReplay_Start(&replay, filePath, &scene, Scene_GetType(0), &def));
+        assert_int_equal(replay.isSave, pass);
+        for (int32_t i = pass; i < 2; i++) {
+            assert_int_equal(SceneReplay_Tick(&replay, &scene), KIRI_PENDING);
+        }
+        CheckOpened(&replay, &scene, hashes[1]);
+        Scene_Stop(&scene);
+        SceneReplay_Free(&replay);
+    }
+    remove(filePath);
+}
+
 static void TestNoRecording(void** state)
 {
     Scene scene;
@@ -79,6 +140,7 @@ int main(int count, char** words)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestReplay),
+        cmocka_unit_test(TestWorldsOfHosts),
         cmocka_unit_test(TestNoRecording),
     };
     snprintf(filePath, sizeof filePath, "%s.recording", count > 0 ? words[0] : "test_scene_record");

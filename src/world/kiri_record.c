@@ -540,9 +540,7 @@ static kiriResult MakeNext(kiriWorld* world, Coder* coder, kiriReplay* replay, k
 
 static kiriResult MakeUpToStop(kiriWorld* world, Coder* coder, kiriReplay* replay, kiriFault* fault)
 {
-    kiriMemory scratch = kiriMemory_Like(&world->memory);
     const uint8_t* start = coder->at;
-    coder->memory = &scratch;
     if (replay->offset == 0) {
         CodeStart(coder);
         if (coder->fault != READ_FINE) {
@@ -553,7 +551,7 @@ static kiriResult MakeUpToStop(kiriWorld* world, Coder* coder, kiriReplay* repla
     kiriResult result = KIRI_OK;
     while (result == KIRI_OK && coder->at != coder->end) {
         result = MakeNext(world, coder, replay, fault);
-        kiriMemory_FreeAll(&scratch);
+        kiriMemory_FreeAll(coder->memory);
     }
     return result;
 }
@@ -570,7 +568,8 @@ kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t siz
         return KIRI_FAIL(KIRI_ERROR_STATE, "the world is not new");
     }
     const uint8_t* bytes = recording;
-    Coder coder = { NULL, bytes + replay->offset, bytes + size, NULL, READ_FINE };
+    kiriMemory scratch = kiriMemory_Like(&world->memory);
+    Coder coder = { NULL, bytes + replay->offset, bytes + size, &scratch, READ_FINE };
     kiriFault fault = { "" };
     replay->note = NULL;
     replay->noteCount = 0;
