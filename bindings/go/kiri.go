@@ -880,7 +880,7 @@ type SeamDef struct {
 	Stiffness float32
 	// rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
 	RestAngle float32
-	// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+	// N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never
 	BreakForce float32
 }
 

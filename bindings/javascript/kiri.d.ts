@@ -988,7 +988,7 @@ export class SeamDef {
     stiffness: number;
     /** rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
     restAngle: number;
-    /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    /** N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never */
     breakForce: number;
 }
 /** What a host gives as SeamDef: what is left out is as the default has it. */
@@ -1007,7 +1007,7 @@ export interface SeamDefGiven {
     stiffness?: number;
     /** rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
     restAngle?: number;
-    /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    /** N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never */
     breakForce?: number;
 }
 

@@ -822,7 +822,7 @@ typedef struct kiriSeamDef {
     int32_t stitches;       /* 2 to 4096; 0 (default): three for two distances of frames */
     float stiffness;  /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
     float restAngle;  /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
-    float breakForce; /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    float breakForce; /* N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never */
 } kiriSeamDef;
 
 /* Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.

@@ -349,20 +349,40 @@ void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
     FreeSeam(world, seam);
 }
 
-/* Removes a stitch if one of its sheets is gone, or if its force for its length is above the limit. Wakes the pieces of
-   removed stitches. Returns their number. */
+/* Returns the force on a stretch of a seam for its length, N/m: of a stitch and those beside it. Stitches pull against each
+   other where lips have other frames; the sum has the load alone. */
+static double LoadOf(const kiriStitchData* before, const kiriStitchData* stitch, const kiriStitchData* after)
+{
+    kiriVec3 force = stitch->force;
+    double length = stitch->length;
+    if (before != NULL && before->next == stitch->number) {
+        force = kiriVec3_Add(force, before->force);
+        length += before->length;
+    }
+    if (after != NULL && stitch->next == after->number) {
+        force = kiriVec3_Add(force, after->force);
+        length += after->length;
+    }
+    return kiriVec3_Length(force) / length;
+}
+
+/* Removes a stitch if one of its sheets is gone, or if its load is above the limit. Wakes the pieces of removed stitches.
+   Returns their number. */
 static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, double limit)
 {
     int32_t kept = 0, count = seam->stitches.count;
+    kiriStitchData *all = seam->stitches.data, before = count > 0 ? all[count - 1] : (kiriStitchData){ 0 };
     KIRI_ASSERT(seam->rows.count == 0 || seam->rows.count == count);
+    const kiriStitchData first = count > 0 ? all[0] : before;
     KIRI_EACH_INDEX(k, seam->stitches) {
-        const kiriStitchData stitch = seam->stitches.data[k];
+        const kiriStitchData stitch = all[k];
         if (SlotOf(world, &stitch, 0) == NULL || SlotOf(world, &stitch, 1) == NULL ||
-            kiriVec3_Length(stitch.force) > limit * stitch.length) {
+            LoadOf(&before, &stitch, k + 1 < count ? &all[k + 1] : &first) > limit) {
             WakeEnds(world, &stitch);
         } else {
-            seam->stitches.data[kept++] = stitch;
+            all[kept++] = stitch;
         }
+        before = stitch;
     }
     seam->stitches.count = kept;
     seam->rows.count = 0;

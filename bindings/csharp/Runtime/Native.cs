@@ -1169,7 +1169,7 @@ namespace Kiri
         public float Stiffness;
         /// <summary>rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal</summary>
         public float RestAngle;
-        /// <summary>N/m: a stitch breaks in a tick with a larger force for its length; 0: never</summary>
+        /// <summary>N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never</summary>
         public float BreakForce;
 
         /// <summary>With the defaults of the library.</summary>

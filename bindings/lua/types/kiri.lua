@@ -398,7 +398,7 @@ kiri.DRAW_ALL = 2047
 ---@field stitches? integer # 2 to 4096; 0 (default): three for two distances of frames
 ---@field stiffness? number # N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
 ---@field restAngle? number # rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
----@field breakForce? number # N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+---@field breakForce? number # N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never
 
 --- A stitch, as after the last tick.
 ---@class kiri.Stitch

@@ -843,7 +843,7 @@ pub struct kiriSeamDef {
     pub stiffness: f32,
     /// rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
     pub restAngle: f32,
-    /// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+    /// N/m: a stitch breaks if it and its neighbours carry more for their length; 0: never
     pub breakForce: f32,
 }
 
