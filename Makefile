@@ -20,7 +20,8 @@
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
 #   make abi      compares the binary interface with the last version's
 #   make bench    runs the benchmarks
-#   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
+#   make accuracy compares with references from outside; CASE=torsion: that one only
+#   make trade    what accuracy costs: one page of curves for five materials in four scenes, with springs beside
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
 #   make gallery  renders the pictures of samples/README.md; make web-film: the film that the README begins with
@@ -147,7 +148,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
-.PHONY: all run box2d jolt play python bindings described builds exported lib single example bench accuracy contact extremes gallery guide deps
+.PHONY: all run box2d jolt play python bindings described builds exported lib single example bench accuracy trade contact extremes gallery guide deps
 .PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -255,6 +256,11 @@ accuracy extremes: %: packages-%
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy "$(CASE)")
 
+trade: packages-accuracy
+	@$(MAKE) --no-print-directory $(BUILD)/tests/trade_page
+	@mkdir -p build/accuracy
+	$(BUILD)/tests/trade_page build/accuracy
+
 contact: packages-contact
 	@$(MAKE) --no-print-directory $(BUILD)/tests/contact
 	$(BUILD)/tests/contact "$(CASE)"
@@ -267,7 +273,7 @@ JOIN = ffmpeg -v error -y -framerate 10 -i build/gallery/$(1)/frame_%04d.png -c:
 CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
 NET_FILM := --script samples/games/scripts/net_6.txt
 
-gallery: packages-gallery accuracy
+gallery: packages-gallery trade
 	@$(MAKE) --no-print-directory $(RUN) $(BOX2D) $(PLAY)
 	@mkdir -p samples/pictures
 	set -e; for scene in $(GALLERY); do \
@@ -281,7 +287,8 @@ gallery: packages-gallery accuracy
 	$(call JOIN,net)
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
-	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done
+	cp build/accuracy/trade.png samples/pictures/
+	cp build/accuracy/trade.csv samples/manual/
 
 # The samples in other engines, as their tests see them.
 .PHONY: gallery-engines
@@ -521,6 +528,11 @@ $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.
 	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lpng -lz -lm
+
+$(BUILD)/tests/trade_page: $(patsubst %,$(BUILD)/tests/%.c.o,trade_page springs specimen frame_layout plot) \
+        $(BUILD)/samples/image.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm
 

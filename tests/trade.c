@@ -1,14 +1,11 @@
 #include "trade.h"
 
-#include "plot.h"
 #include "specimen.h"
 #include "sweep.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { MAX_CURVES = 16 };
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
@@ -131,78 +128,6 @@ static bool WriteRows(const char* folder, int32_t scene)
     return fclose(file) == 0;
 }
 
-/* ---- Plot ------------------------------------------------------------------------------------------------------- */
-
-typedef struct Pattern {
-    const char* name;
-    Setting setting; /* 0: any */
-} Pattern;
-
-static bool Agrees(int32_t pattern, int32_t value)
-{
-    return pattern == 0 || pattern == value;
-}
-
-static Curve MakeCurve(const Pattern* pattern)
-{
-    Curve curve = { pattern->name, { 0.0 }, { 0.0 }, 0 };
-    const Setting* p = &pattern->setting;
-    for (int i = 0; i < count && curve.count < CURVE_POINTS; ++i) {
-        const Setting* s = &settings[i];
-        if (s->model == p->model && Agrees(p->columns, s->columns) && Agrees(p->gridResolution, s->gridResolution) &&
-            Agrees(p->iterations, s->iterations) && Agrees(p->substeps, s->substeps)) {
-            curve.x[curve.count] = 1e3 * outcomes[i].seconds;
-            curve.y[curve.count++] = 100.0 * outcomes[i].error;
-        }
-    }
-    return curve;
-}
-
-static const Pattern stripPatterns[] = {
-    { "3 frames, substeps 1 to 16", { SWEEP_STRIP, 3, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "5 frames, substeps 1 to 16", { SWEEP_STRIP, 5, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "9 frames, substeps 1 to 16", { SWEEP_STRIP, 9, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "17 frames, substeps 1 to 16", { SWEEP_STRIP, 17, 1, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "9 frames, 2 substeps, iterations 1 to 8", { SWEEP_STRIP, 9, 1, 40, 0, 2, 1, KIRI_MODEL_LINKS, 0 } },
-    { "17 frames, 8 substeps, grid 20 to 80", { SWEEP_STRIP, 17, 1, 0, 1, 8, 1, KIRI_MODEL_LINKS, 0 } },
-    { "affine, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_AFFINE, 0 } },
-    { "points, 9 frames, 8 iterations", { SWEEP_STRIP, 9, 1, 40, 8, 0, 1, KIRI_MODEL_POINTS, 0 } },
-    { NULL, { 0 } },
-};
-
-static const Pattern squarePatterns[] = {
-    { "9 frames, substeps 1 to 16", { SWEEP_SQUARE, 3, 3, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "25 frames, substeps 1 to 16", { SWEEP_SQUARE, 5, 5, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "49 frames, substeps 1 to 16", { SWEEP_SQUARE, 7, 7, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "81 frames, substeps 1 to 16", { SWEEP_SQUARE, 9, 9, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "144 frames, substeps 1 to 16", { SWEEP_SQUARE, 12, 12, 40, 1, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "25 frames, 2 iterations", { SWEEP_SQUARE, 5, 5, 40, 2, 0, 1, KIRI_MODEL_LINKS, 0 } },
-    { "81 frames, 4 substeps, grid 20 to 80", { SWEEP_SQUARE, 9, 9, 0, 1, 4, 1, KIRI_MODEL_LINKS, 0 } },
-    { NULL, { 0 } },
-};
-
-static bool WritePicture(const char* folder, int32_t scene)
-{
-    static const char* const presets[KIRI_QUALITY_COUNT] = { "preset fast", "preset balanced", "preset accurate" };
-    const Pattern* patterns = scene == SWEEP_STRIP ? stripPatterns : squarePatterns;
-    char path[512], title[128];
-    Curve curves[MAX_CURVES];
-    int drawn = 0;
-    for (int k = 0; patterns[k].name != NULL; ++k) {
-        curves[drawn++] = MakeCurve(&patterns[k]);
-    }
-    for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
-        kiriQuality quality;
-        kiriGetQuality(p, &quality);
-        Pattern pattern = { presets[p], Sweep_FromQuality(scene, &quality) };
-        curves[drawn++] = MakeCurve(&pattern);
-    }
-    snprintf(path, sizeof path, "%s/trade_%s.png", folder, sweepNames[scene]);
-    snprintf(title, sizeof title, "%s. error, %% of the way. grid 40, 1 iteration where the legend says no other",
-             sweepNames[scene]);
-    return Plot_Write(path, "ms a tick of 1/60 s, solve and skin", title, curves, drawn);
-}
-
 bool Trade_Write(const char* folder, int32_t scene)
 {
     printf("\nThe %s that falls and swings, see tests/sweep.h\n", sweepNames[scene]);
@@ -212,5 +137,5 @@ bool Trade_Write(const char* folder, int32_t scene)
     Measure(scene);
     PrintFront();
     PrintRanges(scene);
-    return WriteRows(folder, scene) && WritePicture(folder, scene);
+    return WriteRows(folder, scene);
 }
