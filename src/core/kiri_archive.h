@@ -167,22 +167,6 @@ typedef struct kiriTable {
 #define KIRI_DERIVED KIRI_MARK(KIRI_MEMBER_DERIVED)
 #define KIRI_HANDED KIRI_MARK(KIRI_MEMBER_HANDED)
 
-/* Applies a macro to up to eight fields. KIRI_ONCE_MORE is for the preprocessor of MSVC, which passes __VA_ARGS__ on as
-   one argument. */
-#define KIRI_ONCE_MORE(x) x
-#define KIRI_EACH_1(M, a) M(a)
-#define KIRI_EACH_2(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_1(M, __VA_ARGS__))
-#define KIRI_EACH_3(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_2(M, __VA_ARGS__))
-#define KIRI_EACH_4(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_3(M, __VA_ARGS__))
-#define KIRI_EACH_5(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_4(M, __VA_ARGS__))
-#define KIRI_EACH_6(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_5(M, __VA_ARGS__))
-#define KIRI_EACH_7(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_6(M, __VA_ARGS__))
-#define KIRI_EACH_8(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_7(M, __VA_ARGS__))
-#define KIRI_EACH_PICK(a, b, c, d, e, f, g, h, Each, ...) Each
-#define KIRI_EACH_FIELD(M, ...)                                                                                        \
-    KIRI_ONCE_MORE(KIRI_EACH_PICK(__VA_ARGS__, KIRI_EACH_8, KIRI_EACH_7, KIRI_EACH_6, KIRI_EACH_5, KIRI_EACH_4,        \
-                                  KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, __VA_ARGS__))
-
 /* A table of a struct, { with its entries }. Other sources may use a shared table. */
 #define KIRI_TABLE(Name, Type, ...) static KIRI_SHARED_TABLE(Name, Type, __VA_ARGS__)
 #define KIRI_SHARED_TABLE(Name, Type, ...)                                                                             \

@@ -42,6 +42,26 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
     return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes));
 }
 
+bool kiriArrays_Grow(kiriMemory* memory, int64_t need, const kiriAnyArray* arrays)
+{
+    bool ok = true;
+    for (; ok && arrays->array != NULL; ++arrays) {
+        ok = kiriArray_Grow(memory, arrays->array, need, arrays->itemBytes);
+    }
+    return ok;
+}
+
+bool kiriArrays_SetCount(kiriMemory* memory, int64_t size, const kiriAnyArray* arrays)
+{
+    bool ok = kiriArrays_Grow(memory, size, arrays);
+    for (; ok && arrays->array != NULL; ++arrays) {
+        kiriArrayHeader header = kiriArray_GetHeader(arrays->array);
+        header.count = (int32_t)size;
+        kiriArray_SetHeader(arrays->array, header);
+    }
+    return ok;
+}
+
 bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
     return need <= kiriArray_GetHeader(array).capacity || MoveArray(memory, array, need, itemBytes);

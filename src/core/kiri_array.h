@@ -95,6 +95,37 @@ void kiriArray_Release(kiriMemory* memory, void* array);
     (kiriArray_Reserve(memory, array, (int64_t)(array)->count + 1) ? ((array)->data[(array)->count++] = (item), true)  \
                                                                    : false)
 
+/* Applies a macro to up to eight arguments. KIRI_ONCE_MORE is for the preprocessor of MSVC, which passes __VA_ARGS__ on
+   as one argument. */
+#define KIRI_ONCE_MORE(x) x
+#define KIRI_EACH_1(M, a) M(a)
+#define KIRI_EACH_2(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_1(M, __VA_ARGS__))
+#define KIRI_EACH_3(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_2(M, __VA_ARGS__))
+#define KIRI_EACH_4(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_3(M, __VA_ARGS__))
+#define KIRI_EACH_5(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_4(M, __VA_ARGS__))
+#define KIRI_EACH_6(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_5(M, __VA_ARGS__))
+#define KIRI_EACH_7(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_6(M, __VA_ARGS__))
+#define KIRI_EACH_8(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_7(M, __VA_ARGS__))
+#define KIRI_EACH_PICK(a, b, c, d, e, f, g, h, Each, ...) Each
+#define KIRI_EACH_FIELD(M, ...)                                                                                        \
+    KIRI_ONCE_MORE(KIRI_EACH_PICK(__VA_ARGS__, KIRI_EACH_8, KIRI_EACH_7, KIRI_EACH_6, KIRI_EACH_5, KIRI_EACH_4,        \
+                                  KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, __VA_ARGS__))
+
+/* Reserve, or resize, up to eight arrays for the same count: kiriArrays_Reserve(memory, need, &a, &b). If one fails,
+   Resize sets no count. */
+#define kiriArrays_Reserve(memory, need, ...) kiriArrays_Grow((memory), (need), KIRI_ARRAYS_OF(__VA_ARGS__))
+#define kiriArrays_Resize(memory, size, ...) kiriArrays_SetCount((memory), (size), KIRI_ARRAYS_OF(__VA_ARGS__))
+#define KIRI_ARRAYS_OF(...) ((const kiriAnyArray[]){ KIRI_EACH_FIELD(KIRI_ANY_ARRAY, __VA_ARGS__), { NULL, 0 } })
+#define KIRI_ANY_ARRAY(array) { (array), sizeof(*(array)->data) }
+
+typedef struct kiriAnyArray {
+    void* array; /* null: the end of a list */
+    size_t itemBytes;
+} kiriAnyArray;
+
+bool kiriArrays_Grow(kiriMemory* memory, int64_t need, const kiriAnyArray* arrays);
+bool kiriArrays_SetCount(kiriMemory* memory, int64_t size, const kiriAnyArray* arrays);
+
 /* Sorting of indices. */
 
 /* Returns true if item a comes before item b. A strict total order: the result does not depend on the input order. */

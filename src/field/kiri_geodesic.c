@@ -18,7 +18,7 @@ bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, i
     int32_t owned = (uses & KIRI_FIELD_OWNERS) != 0 ? cellCount : 0;
     int32_t marked = (uses & KIRI_FIELD_REPAIRS) != 0 ? cellCount : 0;
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) || !kiriArray_Reserve(memory, &field->owner, owned) ||
-        !kiriArray_Reserve(memory, &field->dirty, marked) || !kiriArray_Reserve(memory, &field->marks, marked)) {
+        !kiriArrays_Reserve(memory, marked, &field->dirty, &field->marks)) {
         return false;
     }
     int32_t c = field->distance.count;

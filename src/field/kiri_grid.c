@@ -1132,8 +1132,7 @@ static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
     kiriMemory* memory = mesh->memory;
     int32_t squares = grid->squareCell.count;
     int64_t cells = squares + 64, made = 64;
-    if (!kiriArray_Reserve(memory, &grid->cells, cells) || !kiriArray_Reserve(memory, &grid->runs, cells) ||
-        !kiriArray_Reserve(memory, &work->cellFlags, cells) || !kiriArray_Reserve(memory, &work->mark, cells)) {
+    if (!kiriArrays_Reserve(memory, cells, &grid->cells, &grid->runs, &work->cellFlags, &work->mark)) {
         return false;
     }
     grid->cells.count = grid->runs.count = work->cellFlags.count = work->mark.count = squares;
@@ -1145,8 +1144,8 @@ static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
         grid->freeCell = isFree ? s : grid->freeCell;
         made += !isFree;
     }
-    return kiriArray_Reserve(memory, &grid->changes.made, made) &&
-           kiriArray_Reserve(memory, &grid->changes.steps, made) && kiriArray_Reserve(memory, &grid->faces, 2 * made);
+    return kiriArrays_Reserve(memory, made, &grid->changes.made, &grid->changes.steps) &&
+           kiriArray_Reserve(memory, &grid->faces, 2 * made);
 }
 
 /* Starts the first update, or one after a reset: no square has a cell, and all squares are dirty. */

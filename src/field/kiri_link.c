@@ -1226,9 +1226,7 @@ static bool OrderMade(const LinkUpdate* u, int32_t kept, kiriBeforeFn* before)
 {
     int64_t most = (int64_t)kept + u->work->made.count;
     return kiriSort_Order(u->memory, &u->work->order, u->work->made.count, before, u) &&
-           kiriArray_Reserve(u->memory, &u->links->next, most) &&
-           kiriArray_Reserve(u->memory, &u->work->nextEnds, most) &&
-           kiriArray_Reserve(u->memory, &u->links->was, most);
+           kiriArrays_Reserve(u->memory, most, &u->links->next, &u->work->nextEnds, &u->links->was);
 }
 
 static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnds* ends, int32_t was)

@@ -109,12 +109,10 @@ static bool MakeRegionRoom(const RegionUpdate* u)
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
     const kiriTally none = { .area = { 0 } };
     if (!kiriField_Resize(&r->field, u->memory, cellCount, KIRI_FIELD_OWNERS | KIRI_FIELD_REPAIRS) ||
-        !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
-        !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
+        !kiriArrays_Resize(u->memory, cellCount, &r->siteAt, &r->onBorder) ||
         !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||
         !kiriArray_Resize(u->memory, &r->isChanged, cellCount) ||
-        !kiriArray_Resize(u->memory, &r->material, u->siteCount) ||
-        !kiriArray_Resize(u->memory, &r->dirty, u->siteCount)) {
+        !kiriArrays_Resize(u->memory, u->siteCount, &r->material, &r->dirty)) {
         return false;
     }
     for (; cell < cellCount; ++cell) {

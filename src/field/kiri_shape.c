@@ -574,8 +574,7 @@ static bool UnloadFrame(ShapeJob* job)
     kiriReaches* reaches = &job->shape->reaches;
     kiriShapeWork* work = job->work;
     int64_t blocks = (int64_t)reaches->blocks.count + work->loaded.count - reaches->freeBlocks;
-    if (!kiriArray_Reserve(job->memory, &reaches->blocks, blocks) ||
-        !kiriArray_Reserve(job->memory, &reaches->heads, blocks)) {
+    if (!kiriArrays_Reserve(job->memory, blocks, &reaches->blocks, &reaches->heads)) {
         return false;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
@@ -699,14 +698,10 @@ static bool ReserveShape(ShapeJob* job)
     if (!kiriReaches_Resize(&shape->reaches, memory, whole, job->siteCount) ||
         !kiriField_Resize(&work->fromSite, memory, whole, KIRI_FIELD_REPAIRS) ||
         !kiriField_Resize(&work->fromBorder, memory, whole, KIRI_FIELD_REPAIRS) ||
-        !kiriArray_Reserve(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
-        !kiriArray_Reserve(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
-        !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||
-        !kiriArray_Resize(memory, &work->rigidShares, cells) ||
-        !kiriArray_Reserve(memory, &shape->rigid, job->siteCount) ||
-        !kiriArray_Reserve(memory, &work->weights, job->siteCount) ||
-        !kiriArray_Reserve(memory, &work->dirtyFrames, job->siteCount) ||
-        !kiriArray_Reserve(memory, &work->frames, job->siteCount)) {
+        !kiriArray_Reserve(memory, &work->marks, whole) ||
+        !kiriArrays_Reserve(memory, blocks, &work->loaded, &work->isLoaded) ||
+        !kiriArrays_Resize(memory, cells, &shape->spans, &work->wasOwner, &work->counted, &work->rigidShares) ||
+        !kiriArrays_Reserve(memory, job->siteCount, &shape->rigid, &work->weights, &work->dirtyFrames, &work->frames)) {
         return false;
     }
     kiriArray_Extend(&work->marks, whole, 0);

@@ -681,7 +681,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     int32_t cells = grid->cells.count; /* room for all but seeds */
     if ((work->old == &work->flooded && !kiriField_Resize(&work->flooded, memory, cells, 0)) ||
         !kiriField_Resize(&work->fresh, memory, cells, KIRI_FIELD_OWNERS) ||
-        !kiriArray_Resize(memory, &work->sampled, cells) || !kiriArray_Resize(memory, &work->holds, cells) ||
+        !kiriArrays_Resize(memory, cells, &work->sampled, &work->holds) ||
         !kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) ||
         !kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) ||
         !kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count)) {

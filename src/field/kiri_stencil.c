@@ -251,7 +251,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     int32_t count = stencil->steps.count, seen = 0;
-    if (!kiriArray_Resize(memory, &stencil->centers, count) || !kiriArray_Resize(memory, &stencil->shares, count)) {
+    if (!kiriArrays_Resize(memory, count, &stencil->centers, &stencil->shares)) {
         return false;
     }
     stencil->split = false;

@@ -239,8 +239,7 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
 
 bool kiriPlastics_Reserve(kiriPlastics* plastics, kiriMemory* memory, int32_t linkCount, int32_t frameCount)
 {
-    return kiriArray_Reserve(memory, &plastics->links, linkCount) &&
-           kiriArray_Reserve(memory, &plastics->next, linkCount) &&
+    return kiriArrays_Reserve(memory, linkCount, &plastics->links, &plastics->next) &&
            kiriArray_Reserve(memory, &plastics->regions, frameCount);
 }
 

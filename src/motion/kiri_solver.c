@@ -100,15 +100,14 @@ static bool ReserveBodies(kiriSolver* s, const kiriSystem* next)
     int64_t frames = next->frameCount, links = next->linkCount;
     int64_t areas = next->areaElements != NULL ? next->areaElements->elements.count : 0;
     int64_t shares = next->areaElements != NULL ? next->areaElements->shares.count : 0;
-    return kiriArray_Resize(memory, &bodies->bodyOf, frames) && kiriArray_Resize(memory, &bodies->place, frames) && kiriArray_Resize(memory, &bodies->frames, frames) &&
-           kiriArray_Resize(memory, &bodies->links, links) && kiriArray_Resize(memory, &bodies->ownLinks, links) &&
+    return kiriArrays_Resize(memory, frames, &bodies->bodyOf, &bodies->place, &bodies->frames) &&
+           kiriArrays_Resize(memory, links, &bodies->links, &bodies->ownLinks, &s->linkPlace) &&
            kiriArray_Resize(memory, &bodies->corners, next->cornerCount) &&
            kiriArray_Resize(memory, &bodies->areaElements.elements, areas) &&
            kiriArray_Resize(memory, &bodies->areaElements.shares, shares) &&
-           kiriArray_Resize(memory, &s->linkPlace, links) &&
            kiriArray_Resize(memory, &s->order, kiriMax((int64_t)next->cornerCount, areas)) &&
-           kiriArray_Reserve(memory, &s->moved.bodies, frames) &&
-           kiriArray_Reserve(memory, &s->moved.frames, frames) && kiriArray_Reserve(memory, &s->moved.links, links);
+           kiriArrays_Reserve(memory, frames, &s->moved.bodies, &s->moved.frames) &&
+           kiriArray_Reserve(memory, &s->moved.links, links);
 }
 
 /* Reserves room for steps of a body. Fails on out of memory. */
@@ -121,20 +120,16 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
     int64_t strains = KIRI_MOST_STRAINS * elements, rows = KIRI_MOST_STRAINS * most;
     bool isPlastic = body->material.yieldStress > 0.0f;
     int64_t yields = isPlastic ? links : 0;
-    return kiriArray_Reserve(memory, &s->plastics, yields) && kiriArray_Reserve(memory, &s->flows, yields) &&
+    return kiriArrays_Reserve(memory, yields, &s->plastics, &s->flows) &&
            kiriArray_Reserve(memory, &s->regions, isPlastic ? frames : 0) &&
-           kiriArray_Reserve(memory, &s->linkParts, links) && kiriArray_Reserve(memory, &s->strainOffsets, links) &&
-           kiriArray_Reserve(memory, &s->before, frames) && kiriArray_Reserve(memory, &s->after, frames) &&
-           kiriArray_Reserve(memory, &s->predictions, frames) && kiriArray_Reserve(memory, &s->start, frames) &&
-           kiriArray_Reserve(memory, &s->poses, frames) && kiriArray_Reserve(memory, &s->trial, frames) &&
-           kiriArray_Reserve(memory, &s->stiffness, strains) && kiriArray_Reserve(memory, &s->loss, strains) &&
-           kiriArray_Reserve(memory, &s->startStrain, strains) && kiriArray_Reserve(memory, &s->nowStrain, strains) &&
+           kiriArrays_Reserve(memory, links, &s->linkParts, &s->strainOffsets) &&
+           kiriArrays_Reserve(memory, frames, &s->before, &s->after, &s->predictions, &s->start, &s->poses, &s->trial,
+                              &s->sources, &s->materials) &&
+           kiriArrays_Reserve(memory, strains, &s->stiffness, &s->loss, &s->startStrain, &s->nowStrain) &&
            kiriArray_Reserve(memory, &s->tracedRows, traced) && kiriArray_Reserve(memory, &s->stopping, elements) &&
-           kiriArray_Reserve(memory, &s->force, s->size * frames) &&
-           kiriArray_Reserve(memory, &s->move, s->size * frames) && kiriArray_Reserve(memory, &s->members, most) &&
-           kiriArray_Reserve(memory, &s->rows, rows) && kiriArray_Reserve(memory, &s->J, rows * s->size) &&
-           kiriArray_Reserve(memory, &s->sources, frames) && kiriArray_Reserve(memory, &s->materials, frames) &&
-           kiriArray_Reserve(memory, &s->airs, frames);
+           kiriArrays_Reserve(memory, s->size * frames, &s->force, &s->move) &&
+           kiriArray_Reserve(memory, &s->members, most) && kiriArray_Reserve(memory, &s->rows, rows) &&
+           kiriArray_Reserve(memory, &s->J, rows * s->size) && kiriArray_Reserve(memory, &s->airs, frames);
 }
 
 /* Returns a frame of item k of the sheet. */
@@ -412,10 +407,8 @@ bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_
 static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
     kiriMemory* memory = solver->memory;
-    return kiriArray_Reserve(memory, &solver->pins, pins) && kiriArray_Reserve(memory, &solver->pinReactions, pins) &&
-           kiriArray_Reserve(memory, &solver->clamps, clamps) &&
-           kiriArray_Reserve(memory, &solver->clampRows, clamps) &&
-           kiriArray_Reserve(memory, &solver->clampReactions, clamps) &&
+    return kiriArrays_Reserve(memory, pins, &solver->pins, &solver->pinReactions) &&
+           kiriArrays_Reserve(memory, clamps, &solver->clamps, &solver->clampRows, &solver->clampReactions) &&
            kiriArray_Reserve(memory, &solver->contacts, contacts);
 }
 

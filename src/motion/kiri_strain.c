@@ -683,11 +683,9 @@ void kiriTrace_Stiffness(const kiriCorner* corner, const kiriMaterial* material,
 bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
                                int32_t frameCount)
 {
-    return kiriArray_Reserve(memory, &strainOffsets->strainOffsets, linkCount) &&
-           kiriArray_Reserve(memory, &strainOffsets->older, linkCount) &&
-           kiriArray_Reserve(memory, &strainOffsets->from, linkCount) &&
-           kiriArray_Reserve(memory, &strainOffsets->frames, frameCount) &&
-           kiriArray_Reserve(memory, &strainOffsets->mayMove, frameCount);
+    return kiriArrays_Reserve(memory, linkCount, &strainOffsets->strainOffsets, &strainOffsets->older,
+                              &strainOffsets->from) &&
+           kiriArrays_Reserve(memory, frameCount, &strainOffsets->frames, &strainOffsets->mayMove);
 }
 
 void kiriStrainOffsets_Start(kiriStrainOffsets* strainOffsets, int32_t linkCount)

@@ -807,8 +807,7 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
     const kiriSquares* squares = &sheet->mesh.squares;
     int32_t vertices = sheet->seen.surface.vertexCount, triangles = sheet->seen.surface.triangleCount;
     int32_t patches = squares->columns * squares->rows, oldMarks = search->marks.count, oldHeads = search->heads.count;
-    if (!kiriArray_Reserve(search->memory, &search->triangles, triangles) ||
-        !kiriArray_Reserve(search->memory, &search->crossed, triangles) ||
+    if (!kiriArrays_Reserve(search->memory, triangles, &search->triangles, &search->crossed) ||
         !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
         !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
         (oldMarks < vertices && !kiriArray_Resize(search->memory, &search->marks, vertices)) ||

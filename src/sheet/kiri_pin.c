@@ -85,10 +85,8 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
-           kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
-           kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
-           kiriArray_Reserve(sheet->memory, &sheet->pinReactions, pins + 2 * shares) &&
-           kiriArray_Reserve(sheet->memory, &sheet->clampReactions, shares) &&
+           kiriArrays_Reserve(sheet->memory, pins + 2 * shares, &sheet->pinRows, &sheet->pinReactions) &&
+           kiriArrays_Reserve(sheet->memory, shares, &sheet->clampRows, &sheet->clampReactions) &&
            kiriArray_Reserve(sheet->memory, &sheet->frameReactions, frames) &&
            (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
@@ -134,8 +132,7 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
     }
     int64_t need = (int64_t)sheet->pins.count + 1, shares = sheet->layout.pinShares.count;
     shares += pin->type == KIRI_PIN_POINT ? 0 : sheet->lineShares.count;
-    if (!kiriArray_Reserve(sheet->memory, &sheet->pins, need) ||
-        !kiriArray_Reserve(sheet->memory, &sheet->layout.pinFrame, need) ||
+    if (!kiriArrays_Reserve(sheet->memory, need, &sheet->pins, &sheet->layout.pinFrame) ||
         !kiriArray_Reserve(sheet->memory, &sheet->layout.pinShares, shares) ||
         !ReserveRows(sheet, need, shares, sheet->frames.count, sheet->links.links.count)) {
         sheet->layout.severed.count = severed;

@@ -234,9 +234,8 @@ bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts)
     return kiriSurface_Reserve(&seen->surface, &sheet->shown, counts.vertices, counts.triangles, counts.frames) &&
            kiriArray_Reserve(&sheet->shown, &seen->pointPositions, 3 * (int64_t)counts.points) &&
            kiriArray_Reserve(sheet->memory, &seen->exactPoints, counts.points) &&
-           kiriArray_Reserve(sheet->memory, &seen->blocks.touched, blocks) &&
-           kiriArray_Reserve(sheet->memory, &seen->blocks.stale, blocks) &&
-           kiriArray_Reserve(sheet->memory, &seen->blocks.movers, blocks) &&
+           kiriArrays_Reserve(sheet->memory, blocks, &seen->blocks.touched, &seen->blocks.stale,
+                              &seen->blocks.movers) &&
            kiriArray_Reserve(sheet->memory, &seen->blocks.moved, counts.frames) &&
            (!isSeen || kiriView_ReserveFades(sheet, counts.vertices, counts.points, seen->fades.time));
 }

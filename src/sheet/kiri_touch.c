@@ -165,13 +165,10 @@ static bool MarkVertices(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     int32_t vertices = sheet->mesh.vertices.count;
-    if (!kiriArray_Resize(sheet->memory, &probes->vertexPiece, vertices) ||
-        !kiriArray_Resize(sheet->memory, &probes->isBorder, vertices) ||
-        !kiriArray_Resize(sheet->memory, &probes->leans, vertices) ||
-        !kiriArray_Resize(sheet->memory, &probes->isChosen, vertices) ||
+    if (!kiriArrays_Resize(sheet->memory, vertices, &probes->vertexPiece, &probes->isBorder, &probes->leans,
+                           &probes->isChosen) ||
         !kiriArray_Resize(sheet->memory, &probes->touch, 2 * (int64_t)vertices) ||
-        !kiriArray_Resize(sheet->memory, &probes->boxes, sheet->layout.pieces.count) ||
-        !kiriArray_Resize(sheet->memory, &probes->speeds, sheet->layout.pieces.count)) {
+        !kiriArrays_Resize(sheet->memory, sheet->layout.pieces.count, &probes->boxes, &probes->speeds)) {
         return false;
     }
     probes->areGrouped = false;
@@ -501,8 +498,7 @@ bool kiriTouches_Begin(kiriSheetData* sheet)
 
 static bool ReserveMemory(kiriSheetData* sheet, kiriTouchMemory* memory, int64_t count)
 {
-    return kiriArray_Reserve(sheet->memory, &memory->touches, count) &&
-           kiriArray_Reserve(sheet->memory, &memory->forces, count);
+    return kiriArrays_Reserve(sheet->memory, count, &memory->touches, &memory->forces);
 }
 
 bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
@@ -510,11 +506,9 @@ bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
     kiriTouches* touches = &sheet->touches;
     /* All may fall asleep, or wake, before the next search. */
     int64_t all = count + touches->last.touches.count + touches->slept.touches.count;
-    return kiriArray_Reserve(sheet->memory, &touches->found, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->yields, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->rows, count) && ReserveMemory(sheet, &touches->last, all) &&
-           ReserveMemory(sheet, &touches->slept, all) && kiriArray_Reserve(sheet->memory, &touches->order, all) &&
-           kiriSolver_ReserveRows(sheet->solver, 0, 0, count);
+    return kiriArrays_Reserve(sheet->memory, count, &touches->found, &touches->yields, &touches->rows) &&
+           ReserveMemory(sheet, &touches->last, all) && ReserveMemory(sheet, &touches->slept, all) &&
+           kiriArray_Reserve(sheet->memory, &touches->order, all) && kiriSolver_ReserveRows(sheet->solver, 0, 0, count);
 }
 
 bool kiriTouches_Reserve(kiriSheetData* sheet)

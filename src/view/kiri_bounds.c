@@ -83,8 +83,8 @@ static bool ReserveTree(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     int32_t firsts[KIRI_BOUNDS_LEVELS], levelCount, nodes = LayLevels(triangleCount, firsts, &levelCount);
     int32_t sorted = NeedsSorting(bounds, triangleCount) ? triangleCount : 0;
     return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
-           kiriArray_Reserve(memory, &bounds->nodes, nodes) && kiriArray_Reserve(memory, &bounds->moves, nodes) &&
-           kiriArray_Reserve(memory, &bounds->codes, sorted) && kiriArray_Reserve(memory, &bounds->other, sorted);
+           kiriArrays_Reserve(memory, nodes, &bounds->nodes, &bounds->moves) &&
+           kiriArrays_Reserve(memory, sorted, &bounds->codes, &bounds->other);
 }
 
 /* Sorts the triangles in `order` by their codes: three stable passes over 11 bits each. */
@@ -412,7 +412,7 @@ bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface*
     if (WriteGroups(bounds, surface, ofVertex) <= groupCount + count / LEAF_SIZE / 16) {
         return true;
     }
-    if (!kiriArray_Reserve(memory, &bounds->codes, count) || !kiriArray_Reserve(memory, &bounds->other, count)) {
+    if (!kiriArrays_Reserve(memory, count, &bounds->codes, &bounds->other)) {
         return false;
     }
     for (int32_t t = 0; t < count; ++t) {

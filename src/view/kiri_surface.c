@@ -152,19 +152,14 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
 bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t vertices, int64_t triangles,
                          int32_t frameCount)
 {
-    return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
-           kiriArray_Reserve(memory, &surface->places, 3 * vertices + 1) &&
-           kiriArray_Reserve(memory, &surface->before, 3 * vertices) &&
-           kiriArray_Reserve(memory, &surface->normals, 3 * vertices) &&
+    return kiriArrays_Reserve(memory, 3 * vertices + 1, &surface->positions, &surface->places) &&
+           kiriArrays_Reserve(memory, 3 * vertices, &surface->before, &surface->normals, &surface->sourceWeights) &&
            kiriArray_Reserve(memory, &surface->restPositions, 2 * vertices) &&
-           kiriArray_Reserve(memory, &surface->sourceWeights, 3 * vertices) &&
-           kiriArray_Reserve(memory, &surface->sourceTriangles, vertices) &&
+           kiriArrays_Reserve(memory, vertices, &surface->sourceTriangles, &surface->rest) &&
            kiriArray_Reserve(memory, &surface->indices, 3 * triangles) &&
-           kiriArray_Reserve(memory, &surface->rest, vertices) &&
            kiriArray_Reserve(memory, &surface->slopes, 4 * vertices) &&
            kiriArray_Reserve(memory, &surface->turns, triangles / 2 + triangles % 2) &&
-           kiriArray_Reserve(memory, &surface->carriers, frameCount) &&
-           kiriArray_Reserve(memory, &surface->bends, frameCount) &&
+           kiriArrays_Reserve(memory, frameCount, &surface->carriers, &surface->bends) &&
            kiriPatches_Reserve(&surface->patches, memory, frameCount) &&
            kiriDetail_Reserve(&surface->detail, memory, vertices, triangles, frameCount);
 }

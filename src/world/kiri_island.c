@@ -13,11 +13,8 @@ bool kiriIslands_FindClusters(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = world->sheets.count;
-    if (!kiriArray_Resize(&world->memory, &islands->clusters, count) ||
-        !kiriArray_Resize(&world->memory, &islands->next, count) ||
-        !kiriArray_Resize(&world->memory, &islands->isJoined, count) ||
-        !kiriArray_Resize(&world->memory, &islands->systems, count) ||
-        !kiriArray_Resize(&world->memory, &islands->firstBodies, count)) {
+    if (!kiriArrays_Resize(&world->memory, count, &islands->clusters, &islands->next, &islands->isJoined,
+                           &islands->systems, &islands->firstBodies)) {
         return false;
     }
     kiriUnion_Init(islands->clusters.data, count);
@@ -208,9 +205,7 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
     ListClusters(world);
     int32_t count = BeginClusters(world, dt), had = islands->islands.count;
     islands->count = 0;
-    bool ok = kiriArray_Resize(memory, &islands->parents, count) &&
-              kiriArray_Resize(memory, &islands->numbers, count) &&
-              kiriArray_Resize(memory, &islands->bodies, count) &&
+    bool ok = kiriArrays_Resize(memory, count, &islands->parents, &islands->numbers, &islands->bodies) &&
               (had >= count || kiriArray_Resize(memory, &islands->islands, count));
     for (int32_t n = had; ok && n < islands->islands.count; ++n) {
         memset(&islands->islands.data[n], 0, sizeof(kiriIsland));

@@ -589,8 +589,7 @@ bool kiriMoves_Prepare(kiriWorld* world)
 {
     kiriMoves* moves = &world->moves;
     int32_t count = world->sheets.count;
-    if (!kiriArray_Resize(&world->memory, &moves->of, count) ||
-        !kiriArray_Resize(&world->memory, &moves->parent, count) ||
+    if (!kiriArrays_Resize(&world->memory, count, &moves->of, &moves->parent) ||
         !kiriArray_Reserve(&world->memory, &moves->heads, count)) {
         return false;
     }

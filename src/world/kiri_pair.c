@@ -75,8 +75,7 @@ static bool ReserveCalm(kiriWorld* world)
         int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
         count += kiriMax(next, now);
     }
-    return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
-           kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
+    return kiriArrays_Reserve(&world->memory, count, &world->pairs.parents, &world->pairs.calms);
 }
 
 bool kiriPairs_AddTouches(kiriWorld* world)
@@ -1230,8 +1229,7 @@ static bool IsBefore(const void* context, int32_t a, int32_t b)
 static bool SortFound(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
-    if (!kiriArray_Resize(&world->memory, &pairs->order, pairs->found.count) ||
-        !kiriArray_Resize(&world->memory, &pairs->next, pairs->found.count)) {
+    if (!kiriArrays_Resize(&world->memory, pairs->found.count, &pairs->order, &pairs->next)) {
         return false;
     }
     KIRI_EACH_INDEX(i, pairs->found) {

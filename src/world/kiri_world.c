@@ -29,9 +29,7 @@ void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index)
 kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count)
 {
     int64_t sheets = (int64_t)world->sheets.count + count;
-    return kiriArray_Reserve(&world->memory, &world->sheets, sheets) &&
-                   kiriArray_Reserve(&world->memory, &world->active, sheets) &&
-                   kiriArray_Reserve(&world->memory, &world->atWork, sheets)
+    return kiriArrays_Reserve(&world->memory, sheets, &world->sheets, &world->active, &world->atWork)
                ? kiriWorld_ReserveIds(world, &world->sheetIds, count)
                : KIRI_ERROR_MEMORY;
 }
