@@ -54,7 +54,7 @@ kiriMat3 kiriMat3_Cayley(kiriVec3 w)
 /* Gram-Schmidt. Axes that a singular m leaves open are chosen. */
 static kiriMat3 Orthonormal(kiriMat3 m)
 {
-    kiriMat3 r = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    kiriMat3 r = KIRI_AXES;
     double lu = kiriVec3_Length(m.u), lv = kiriVec3_Length(m.v);
     if (lu > 0.0) {
         r.u = kiriVec3_Scale(1.0 / lu, m.u);

@@ -22,6 +22,15 @@ typedef struct kiriMat3 {
     kiriVec3 u, v, d;
 } kiriMat3;
 
+/* Initialiser: the axes of space, as a matrix or as three vectors. */
+#define KIRI_AXES                                                                                                      \
+    {                                                                                                                  \
+        { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },                                                                          \
+        {                                                                                                              \
+            0.0, 0.0, 1.0                                                                                              \
+        }                                                                                                              \
+    }
+
 /* A point of the rest plane's lattice. Vertices have even coordinates, grid lines odd ones, so no vertex ever lies on a
    grid line. Coordinates stay within 2^30 of each other: orientations fit 64 bits. */
 typedef struct kiriLatticePoint {

@@ -32,12 +32,6 @@ typedef struct ShapeJob {
     int32_t frame;
 } ShapeJob;
 
-static void AppendCell(ShapeJob* job, kiriIndices* list, int32_t cell)
-{
-    bool ok = kiriArray_Push(job->memory, list, cell);
-    job->outOfMemory = job->outOfMemory || !ok;
-}
-
 /* ---- How far the distances of a frame go ------------------------------------------------------------------------- */
 
 /* Returns how far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step
@@ -206,7 +200,8 @@ static void MarkCell(ShapeJob* job, int32_t cell, uint8_t mark, kiriIndices* lis
     KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
     if ((job->work->marks.data[cell] & mark) == 0) {
         job->work->marks.data[cell] |= mark;
-        AppendCell(job, list, cell);
+        bool ok = kiriArray_Push(job->memory, list, cell);
+        job->outOfMemory = job->outOfMemory || !ok;
     }
 }
 

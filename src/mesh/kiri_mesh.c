@@ -20,7 +20,8 @@ void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open)
     t->marks = (t->marks & ~((open ? 1 : 17) << (h % 3))) | ((open ? 1 : 0) << (h % 3));
 }
 
-void kiriMesh_CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g)
+/* Marks half-edge g as h. */
+static void CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     KIRI_ASSERT(g >= 0 && g / 3 < mesh->triangles.count);
     kiriTriangle* t = &mesh->triangles.data[g / 3];
@@ -214,7 +215,7 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
-    kiriMesh_CopyMarks(mesh, h, g);
+    CopyMarks(mesh, h, g);
     kiriMesh_Link(mesh, g, kiriMesh_Twin(mesh, h));
     kiriMesh_SetOpen(mesh, h, false);
     if (tail->edge == h) {
@@ -296,7 +297,7 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
 {
     int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
     int32_t added = 3 * kiriMesh_AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
-    kiriMesh_CopyMarks(mesh, h, added);
+    CopyMarks(mesh, h, added);
     MoveHalfEdge(mesh, next, added + 1);
     mesh->triangles.data[next / 3].vertex[next % 3] = p;
     kiriMesh_Link(mesh, next, added + 2);

@@ -260,10 +260,9 @@ kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent);
 
 /* Link makes half-edges h and g twins; g may be KIRI_NONE. SetOpen marks h as open or closed, but not its twin, and
-   as a cut. CopyMarks marks g as h. */
+   as a cut. */
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g);
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
-void kiriMesh_CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g);
 
 /* Writes the corners of one of the caller's triangles. Returns false if the mesh has no part of it. */
 bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3]);

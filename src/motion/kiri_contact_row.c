@@ -41,7 +41,7 @@ double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, 
 static kiriVec3 SlideAt(const kiriContactStep* step, kiriVec3 point)
 {
     kiriVec3 way = kiriVec3_Sub(point, step->start);
-    return kiriVec3_AlongPlane(kiriVec3_Sub(way, step->carried), step->row->normal);
+    return kiriVec3_Across(kiriVec3_Sub(way, step->carried), step->row->normal);
 }
 
 static bool IsSoft(const kiriContactRow* row)
@@ -421,8 +421,8 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
     double gap = kiriVec3_Dot(row->normal, free) - step->plane;
     kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
-    slide = kiriVec3_AlongPlane(slide, row->normal);
-    step->held = kiriVec3_AlongPlane(row->force, row->normal);
+    slide = kiriVec3_Across(slide, row->normal);
+    step->held = kiriVec3_Across(row->force, row->normal);
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
     if (IsSoft(row)) {
@@ -565,7 +565,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
         if (step->isActive && !IsSoft(step->row)) {
             kiriVec3 move = kiriSolver_MoveOf(solver, system, step->members, step->memberCount);
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
-            step->slides = kiriVec3_AlongPlane(move, step->row->normal);
+            step->slides = kiriVec3_Across(move, step->row->normal);
         }
     }
 }
@@ -1096,7 +1096,7 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step)
     if (solver->touch.isHeldUp) {
         return kiriVec3_Dot(force, step->carried); /* it is moved out of obstacles, which throws nothing */
     }
-    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_AlongPlane(step->carried, normal));
+    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_Across(step->carried, normal));
 }
 
 /* Gives the yield row `times` the impulse of the contact in the step. */

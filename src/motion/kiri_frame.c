@@ -125,7 +125,7 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
 #define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
 #define MOST_PARTS 8          /* of a step */
 
-static const kiriMat3 IdentityAxes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+static const kiriMat3 IdentityAxes = KIRI_AXES;
 
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
 {

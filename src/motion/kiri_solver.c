@@ -7,7 +7,7 @@
 
 static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
 {
-    const kiriVec3 space[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    const kiriVec3 space[3] = KIRI_AXES;
     const kiriVec3 plane[3] = { mechanics->axes.u, mechanics->axes.v, mechanics->axes.d };
     bool affine = kiriMechanics_IsAffine(mechanics), planar = mechanics->planar;
     int vectors = !affine ? 2 : planar ? 3 : 4;

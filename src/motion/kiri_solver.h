@@ -648,11 +648,6 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Contacts (kiri_contact_row.c) ---- */
 
-static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
-}
-
 static inline bool kiriContact_IsMutual(const kiriContactStep* step)
 {
     return step->row->other != NULL;
@@ -740,7 +735,7 @@ void kiriStitches_TakeForces(const kiriSolver* solver, const kiriSystem* system)
 kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses);
 
 /* Returns the moment of the hinge on a member, N m. */
-kiriVec3 kiriStitch_Moment(const kiriSystem* system, const kiriStitchRow* row, int32_t member, const kiriPose* poses);
+kiriVec3 kiriStitch_Moment(const kiriStitchRow* row, int32_t member, const kiriPose* poses);
 
 /* ---- Reactions (kiri_step.c) ---- */
 

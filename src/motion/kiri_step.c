@@ -875,7 +875,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < system->pinCount; ++k) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-        const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+        const kiriVec3 axes[3] = KIRI_AXES;
         for (int a = 0; a < 3 && !system->frames[pin->frame].held; ++a) {
             AddSpring(solver, system, pin->frame, pin->at, axes[a], kiriVec3_Dot(off, axes[a]), pin->stiffness);
         }
@@ -1306,7 +1306,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
         TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], force);
         for (int32_t m = 0; row->bending > 0.0 && m < row->counts[0] + row->counts[1]; ++m) {
-            kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(system, row, m, solver->poses.data) };
+            kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(row, m, solver->poses.data) };
             TakeFromHold(solver, system, row->members[m].frame, turn);
         }
     }

@@ -28,10 +28,9 @@ static kiriVec3 PullOf(const kiriStitchRow* row, const kiriPose* poses)
     return kiriVec3_Scale(-row->bending, apart);
 }
 
-kiriVec3 kiriStitch_Moment(const kiriSystem* system, const kiriStitchRow* row, int32_t member, const kiriPose* poses)
+kiriVec3 kiriStitch_Moment(const kiriStitchRow* row, int32_t member, const kiriPose* poses)
 {
-    KIRI_ASSERT(member < CountOf(row) && row->members[member].frame < system->frameCount);
-    (void)system;
+    KIRI_ASSERT(member < CountOf(row));
     kiriVec3 pull = kiriVec3_Scale(row->members[member].value, PullOf(row, poses));
     return kiriVec3_Cross(MemberWay(row, member, poses), pull);
 }
@@ -65,9 +64,7 @@ double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system)
 static void AddSprings(kiriSolver* solver, const kiriSystem* system, const kiriStitchRow* row, const kiriVec3* ways,
                        double k, kiriVec3 pull)
 {
-    kiriPointSprings at = { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
-                            { k, k, k },
-                            { pull.x, pull.y, pull.z } };
+    kiriPointSprings at = { KIRI_AXES, { k, k, k }, { pull.x, pull.y, pull.z } };
     kiriSolver_AddPointSprings(solver, system, row->members, CountOf(row), ways, &at);
 }
 
@@ -76,10 +73,10 @@ void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 ways[KIRI_STITCH_MEMBERS];
         AddSprings(solver, system, row, NULL, row->stiffness, kiriStitch_Force(system, row, solver->poses.data));
-        for (int32_t m = 0; row->bending > 0.0 && m < CountOf(row); ++m) {
-            ways[m] = row->ways[m >= row->counts[0]];
-        }
         if (row->bending > 0.0) {
+            for (int32_t m = 0; m < CountOf(row); ++m) {
+                ways[m] = row->ways[m >= row->counts[0]];
+            }
             AddSprings(solver, system, row, ways, row->bending, PullOf(row, solver->poses.data));
         }
     }

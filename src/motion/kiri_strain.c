@@ -557,7 +557,8 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
     }
 }
 
-double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
+/* Returns the width of a strip, clamped at both ends, that has the same stiffness against a normal gap. */
+static double NormalGapWidth(const kiriLink* link, double poissonsRatio)
 {
     double outer = link->outer, lone = kiriLink_LoneWidth(link), nu = poissonsRatio;
     return GAP_INNER * (link->width - outer - link->beyond) +
@@ -601,7 +602,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
         membrane * link->moment * (1.0 + PLANE_INNER * nu / (1.0 + nu) * inner / link->width);
     stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer + nu * beyond);
     stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer + beyond);
-    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
+    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_FOLD] = stiffness[KIRI_TWIST];
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }
@@ -969,7 +970,7 @@ static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec
 /* Measures the part in the plane, one row for each axis of space: P g = g - d (d . g). */
 static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, double* strain, kiriFrameRow rows[][2])
 {
-    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    const kiriVec3 axes[3] = KIRI_AXES;
     double along = kiriVec3_Dot(g->value, mean->d);
     for (int a = 0; a < 3; ++a) {
         double lean = kiriVec3_Dot(axes[a], mean->d);
@@ -984,7 +985,7 @@ static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, d
 /* Measures the difference of the directors, scaled up by the curl of the strip: see kiri_strain.h. */
 static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
-    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0 };
+    const kiriVec3 axes[3] = KIRI_AXES, zero = { 0 };
     kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
     double slope, factor = kiriCurl_Factor(curl, kiriVec3_Dot(bent, bent), &slope);
     for (int a = 0; a < 3; ++a) {
@@ -1065,7 +1066,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
         stiffness[KIRI_AFFINE_BENDING + a] = bending * (1.0 - nu) * (link->width + nu * link->outer);
     }
     stiffness[KIRI_AFFINE_TWIST] = bending * (1.0 - nu) * (1.0 - nu) * link->outer;
-    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
+    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_AFFINE_NORMAL_STOP] = membrane * link->width;
 }
 

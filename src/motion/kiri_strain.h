@@ -20,7 +20,7 @@ KIRI_C_BEGIN
    plane bending  -2 sin of half the turn about d                     M I (1 + 3/2 nu / (1 + nu) Wi / W)
    bending        w . e, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
    twist          w . (d x e)                                         B (1 - nu) (Wi + 2 Wo)
-   normal gap     gap(m) . d                                          12 B W' / l^2, W' of kiriStrain_NormalGapWidth
+   normal gap     gap(m) . d                                          12 B W' / l^2, W' of NormalGapWidth
    fold           the part of |w| that bending and twist lose         as twist
    normal stop    excess of |gap(m) . d| over l / 2                   M W
 
@@ -106,8 +106,6 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 /* Subtracts the offsets from the strains of a link. The result is the part that causes forces. */
 void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling);
 
-/* Returns the width of a strip, clamped at both ends, that has the same stiffness against a normal gap. */
-double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio);
 
 /* Returns D of a plate, N m. */
 double kiriStrain_PlateStiffness(const kiriMaterial* material);

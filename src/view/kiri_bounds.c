@@ -22,7 +22,8 @@ void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 
     }
 }
 
-kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
+/* Returns the least box around a triangle in world space. */
+static kiriBox BoxOfTriangle(const kiriSurface* surface, int32_t triangle)
 {
     kiriVec3 corner[3];
     kiriBox box = KIRI_EMPTY_BOX;
@@ -331,7 +332,7 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
             continue;
         }
         if (search->meets != NULL) {
-            box = kiriBox_OfTriangle(search->surface, triangles[i]);
+            box = BoxOfTriangle(search->surface, triangles[i]);
         }
         if (search->meets == NULL || search->meets(search->space, &box)) {
             ok = kiriArray_Push(search->memory, search->found, triangles[i]);
@@ -449,7 +450,7 @@ static double SquareToItem(const NearSearch* search, int32_t level, int32_t item
         if (GroupOf(search->surface, search->group.ofVertex, triangle) != group) {
             return -1.0;
         }
-        box = kiriBox_OfTriangle(search->surface, triangle);
+        box = BoxOfTriangle(search->surface, triangle);
     }
     kiriVec3 off = kiriVec3_Sub(search->from, kiriVec3_Most(kiriVec3_Least(search->from, box.upper), box.lower));
     return kiriVec3_Dot(off, off);
@@ -526,8 +527,8 @@ typedef struct RayHit {
     double distance, b, c; /* along the ray; shares of the second and third corner */
 } RayHit;
 
-/* Intersects a ray and a triangle (Moeller and Trumbore 1997), or the rim around it: shares down to -rim count, too. */
-static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, double rim, RayHit* hit)
+/* Intersects a ray and a triangle (Moeller and Trumbore 1997). */
+static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, RayHit* hit)
 {
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
     kiriVec3 p = kiriVec3_Cross(ray->direction, ac);
@@ -539,7 +540,7 @@ static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, double rim, Ra
     hit->b = kiriVec3_Dot(s, p) / determinant;
     hit->c = kiriVec3_Dot(ray->direction, q) / determinant;
     hit->distance = kiriVec3_Dot(ac, q) / determinant;
-    return hit->b >= -rim && hit->c >= -rim && hit->b + hit->c <= 1.0 + rim && hit->distance >= 0.0;
+    return hit->b >= 0.0 && hit->c >= 0.0 && hit->b + hit->c <= 1.0 && hit->distance >= 0.0;
 }
 
 typedef struct RaySearch {
@@ -564,7 +565,7 @@ static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
         kiriVec3 corner[3];
         RayHit hit;
         GetDrawnCorners(search->surface, triangles[i], corner);
-        if (HitTriangle(corner, &search->ray, 0.0, &hit) &&
+        if (HitTriangle(corner, &search->ray, &hit) &&
             (hit.distance < search->ray.distance ||
              (hit.distance == search->ray.distance && triangles[i] > search->triangle))) {
             search->ray.distance = hit.distance;

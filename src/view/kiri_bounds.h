@@ -66,8 +66,6 @@ double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
 /* Gets the corners of a triangle in world space. */
 void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3]);
 
-/* Returns the least box around a triangle in world space. */
-kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
 
 /* Returns true if the boxes fit the surface. All searches below need that. */
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);

@@ -694,7 +694,7 @@ static void ShiftSheet(kiriSheetData* sheet, kiriVec3 origin)
 
 static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
 {
-    const kiriMat3 axes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    const kiriMat3 axes = KIRI_AXES;
     bool fits = true;
     KIRI_EACH_INDEX_WHILE(fits, i, world->sheets) {
         fits = FitsCarried(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));

@@ -91,11 +91,6 @@ typedef struct BladeWork {
 #define OVERLAP 0.1
 #define ROUND 1.5
 
-static double RestDistance(kiriVec2 a, kiriVec2 b)
-{
-    return kiriVec2_Length(kiriVec2_Sub(a, b));
-}
-
 /* ---- Strokes ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the stroke of a track. A new cut begins where the track is. KIRI_NONE for memory. */
@@ -132,7 +127,7 @@ static bool AddTrackPoint(BladeWork* work, Track* track, kiriVec2 rest)
 {
     int32_t stroke = StrokeOf(work, track);
     kiriVec2 from = track->rest;
-    track->loop.length += RestDistance(from, rest);
+    track->loop.length += kiriVec2_Distance(from, rest);
     track->rest = rest;
     return stroke != KIRI_NONE && AddCut(work, stroke, from, rest);
 }
@@ -140,7 +135,7 @@ static bool AddTrackPoint(BladeWork* work, Track* track, kiriVec2 rest)
 /* True if the end of the cut is so near to its beginning that it may be closed. */
 static bool IsLoopNear(const kiriLoop* loop, kiriVec2 end)
 {
-    return loop->isOpen && RestDistance(loop->start, end) < CLOSING * loop->length;
+    return loop->isOpen && kiriVec2_Distance(loop->start, end) < CLOSING * loop->length;
 }
 
 /* Notes where the way of a track to a place passes the beginning of its loop. */
@@ -150,7 +145,7 @@ static void NotePassing(Track* track, kiriVec2 to)
     kiriVec2 way = kiriVec2_Sub(to, track->rest), left = kiriVec2_Sub(loop->start, track->rest);
     double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(left, way) / square : 0.0;
     kiriVec2 near = kiriVec2_Add(track->rest, kiriVec2_Scale(share > 0.0 ? share : 0.0, way));
-    bool isRound = loop->length > ROUND * RestDistance(track->rest, near);
+    bool isRound = loop->length > ROUND * kiriVec2_Distance(track->rest, near);
     if (!loop->isPassed && share <= 1.0 && isRound && IsLoopNear(loop, near)) {
         loop->isPassed = true;
         loop->near = near;
@@ -196,7 +191,7 @@ static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 
         kiriVec2 foot = FootOnWay(kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)),
                                   kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), rest);
         kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(rest, foot)), slit;
-        double d = RestDistance(foot, rest);
+        double d = kiriVec2_Distance(foot, rest);
         if (d < *distance && (isOutline || which == OUTLINE_AND_LIPS ||
                               (d > work->snap && !FindSlit(work, middle, ACROSS * d, &slit)))) {
             *lip = foot;
@@ -234,7 +229,7 @@ static bool FindPending(const BladeWork* work, int32_t first, int32_t except, ki
     for (int32_t i = first; i < work->pending.count; ++i) {
         const PendingLip* lip = &work->pending.data[i];
         kiriVec2 foot = FootOnWay(lip->from, lip->to, rest);
-        double d = RestDistance(foot, rest);
+        double d = kiriVec2_Distance(foot, rest);
         if (lip->sheet == work->sheet && lip->stroke != except && d < distance) {
             distance = d;
             *place = foot;
@@ -248,14 +243,14 @@ static bool FindPending(const BladeWork* work, int32_t first, int32_t except, ki
 static bool FindSlit(const BladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit)
 {
     bool isFound = FindLipNear(work, rest, distance, OUTLINE_AND_LIPS, slit);
-    distance = isFound ? RestDistance(*slit, rest) : distance;
+    distance = isFound ? kiriVec2_Distance(*slit, rest) : distance;
     return FindPending(work, 0, NO_STROKE, rest, distance, slit) || isFound;
 }
 
 /* Puts a track elsewhere in the slit. */
 static bool Slide(BladeWork* work, Track* track, kiriVec2 slit)
 {
-    track->loop.length += RestDistance(track->rest, slit);
+    track->loop.length += kiriVec2_Distance(track->rest, slit);
     track->rest = slit;
     if (track->cut == NULL && track->stroke == KIRI_NONE) {
         return true;
@@ -269,7 +264,7 @@ static bool Slide(BladeWork* work, Track* track, kiriVec2 slit)
 static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 {
     enum { MOST = 64 };
-    double near = SLIT * work->snap, length = RestDistance(track->rest, rest);
+    double near = SLIT * work->snap, length = kiriVec2_Distance(track->rest, rest);
     int32_t count = length < 0.5 * MOST * near ? 1 + (int32_t)(length / (0.5 * near)) : 1;
     kiriVec2 from = track->rest;
     bool ok = true;
@@ -278,7 +273,7 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
         kiriVec2 slit, other, here;
         bool isNear = FindSlit(work, at, near, &slit);
         if (!isNear && FindSlit(work, at, 2.0 * near, &slit)) {
-            ok = (RestDistance(slit, track->rest) < work->snap || Slide(work, track, slit)) &&
+            ok = (kiriVec2_Distance(slit, track->rest) < work->snap || Slide(work, track, slit)) &&
                  AddTrackPoint(work, track, at);
         } else if (!isNear) {
             ok = AddTrackPoint(work, track, at);
@@ -288,12 +283,12 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
         } else if (!FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near,
                                        &other)) {
             ok = AddTrackPoint(work, track, at) && AddTrackPoint(work, track, slit);
-        } else if (RestDistance(slit, track->rest) > work->snap) {
+        } else if (kiriVec2_Distance(slit, track->rest) > work->snap) {
             ok = Slide(work, track, slit);
         }
     }
     track->loop.isPassed = false;
-    track->loop.length = RestDistance(track->loop.start, track->rest);
+    track->loop.length = kiriVec2_Distance(track->loop.start, track->rest);
     return ok;
 }
 
@@ -305,7 +300,7 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2* end, kiriVec2* start)
 {
     enum { MOST_PLACES = 4096 };
-    double length = RestDistance(from, to) / work->snap;
+    double length = kiriVec2_Distance(from, to) / work->snap;
     int32_t places = 1 + (int32_t)fmin(length, MOST_PLACES);
     kiriVec2 slit, middle;
     bool isInSlit = places <= MOST_PLACES && FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
@@ -315,7 +310,8 @@ static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
         isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
                    FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(*start, slit)),
-                            kiriMin(ON_LIP * work->snap, BETWEEN * RestDistance(*start, slit) + 0.01 * work->snap), &middle);
+                            kiriMin(ON_LIP * work->snap, BETWEEN * kiriVec2_Distance(*start, slit) + 0.01 * work->snap),
+                            &middle);
         *start = slit;
     }
     return isInSlit;
@@ -328,7 +324,7 @@ static bool LeadTrack(BladeWork* work, Track* track, kiriVec2 rest)
     }
     kiriVec2 slit, foot;
     if (IsInSlit(work, track->rest, rest, &slit, &foot)) {
-        bool isOn = RestDistance(track->rest, foot) < ON_LIP * work->snap;
+        bool isOn = kiriVec2_Distance(track->rest, foot) < ON_LIP * work->snap;
         return (isOn || AddTrackPoint(work, track, foot)) &&
                Slide(work, track, slit);
     }
@@ -343,8 +339,7 @@ static bool LeadAlong(BladeWork* work, Track* track)
     bool ok = true;
     kiriVec2 start = track->rest;
     KIRI_EACH_INDEX_WHILE(ok, i, work->path) {
-        bool isHere =
-            i + 1 < work->path.count && RestDistance(work->path.data[i], start) < SAME * work->snap;
+        bool isHere = i + 1 < work->path.count && kiriVec2_Distance(work->path.data[i], start) < SAME * work->snap;
         start = isHere ? start : kiriVec2_Make(1e300, 1e300);
         ok = isHere || LeadTrack(work, track, work->path.data[i]);
     }
@@ -380,7 +375,7 @@ static bool FindOther(const BladeWork* work, kiriVec2 rest, int32_t stroke, doub
         return true;
     }
     bool isFound = FindLipNear(work, rest, near, work->joins ? OUTLINE_AND_LIPS_ACROSS : OUTLINE, place);
-    near = isFound ? RestDistance(rest, *place) : near;
+    near = isFound ? kiriVec2_Distance(rest, *place) : near;
     return FindPending(work, work->firstPending, stroke, rest, near, place) || isFound;
 }
 
@@ -394,7 +389,7 @@ static kiriVec2 NearestInTriangle(const kiriVec2 corner[3], kiriVec2 p, double s
     for (int k = 0; k < 3; ++k) {
         kiriVec2 a = corner[k], b = corner[(k + 1) % 3], foot = FootOnWay(a, b, p);
         if (kiriVec2_Cross(kiriVec2_Sub(b, a), kiriVec2_Sub(p, a)) < 0.0 &&
-            (isIn || RestDistance(foot, p) < RestDistance(nearest, p))) {
+            (isIn || kiriVec2_Distance(foot, p) < kiriVec2_Distance(nearest, p))) {
             nearest = foot;
             isIn = false;
         }
@@ -420,7 +415,7 @@ static void FindPlace(const BladeWork* work, Track* track)
     for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         const int32_t* v = sheet->mesh.triangles.data[t].vertex;
         const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
-        double shares[3], off = RestDistance(NearestInTriangle(corner, track->rest, shares), track->rest);
+        double shares[3], off = kiriVec2_Distance(NearestInTriangle(corner, track->rest, shares), track->rest);
         kiriVec3 seen = kiriSurface_Blend(surface, v, shares), came = { 0 };
         for (int k = 0; k < 3; ++k) {
             came = kiriVec3_AddScaled(came, work->ticks * shares[k], kiriSurface_Came(surface, v[k]));
@@ -465,7 +460,7 @@ static void DropPoints(BladeWork* work)
         const kiriSectionPoint* points = &section->points.data[line.first];
         bool isLong = line.end[0] == KIRI_END_TO || line.end[1] == KIRI_END_TO;
         for (int32_t k = 1; k < line.count && !isLong; ++k) {
-            isLong = RestDistance(points[k].rest, points[0].rest) > DEGENERATE * work->snap;
+            isLong = kiriVec2_Distance(points[k].rest, points[0].rest) > DEGENERATE * work->snap;
         }
         section->lines.data[kept] = line;
         kept += isLong;
@@ -517,7 +512,7 @@ static void MatchTrack(BladeWork* work, int32_t index, double most)
         const kiriSectionLine* line = &work->section.lines.data[i / 2];
         int32_t type = line->end[i % 2];
         double far = type == KIRI_END_FROM ? most : type == KIRI_END_BORDER ? kiriMin(most, SAME * work->snap) : 0.0;
-        double d = far > 0.0 ? RestDistance(EndOfLine(work, line, i % 2)->rest, from) : 1e300;
+        double d = far > 0.0 ? kiriVec2_Distance(EndOfLine(work, line, i % 2)->rest, from) : 1e300;
         if (d < far && work->taker.data[i] == KIRI_NONE) {
             most = d;
             nearest = i;
@@ -536,7 +531,7 @@ static Track* NearestLost(const BladeWork* work, const Track* except, kiriVec2 r
     KIRI_ASSERT(work->oldCount <= work->tracks.count);
     for (int32_t i = 0; i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
-        double d = RestDistance(track->rest, rest);
+        double d = kiriVec2_Distance(track->rest, rest);
         if (track->sheet == work->sheet && track->isLost && track != except && (except == NULL || !track->isOver) &&
             d <= distance) {
             distance = d;
@@ -571,7 +566,7 @@ static bool BeginTrack(BladeWork* work, const kiriSectionLine* line, int begin)
 {
     int32_t type = line->end[begin];
     kiriVec2 from = work->path.data[0];
-    double way = RestDistance(EndOfLine(work, line, 0)->rest, EndOfLine(work, line, 1)->rest);
+    double way = kiriVec2_Distance(EndOfLine(work, line, 0)->rest, EndOfLine(work, line, 1)->rest);
     double near = kiriMin(2.0 * way + FOUND * work->snap, work->unseen);
     const Track* lost = type == KIRI_END_FROM ? NearestLost(work, NULL, from, work->joins ? work->unseen : near) : NULL;
     from = lost != NULL ? lost->rest : from;
@@ -621,7 +616,7 @@ static bool FollowLine(BladeWork* work, int32_t index)
     Track* led = &work->tracks.data[track];
     /* A short way of a layer that was there may wait; one that joins two new layers is cut now. */
     bool isStill = type == KIRI_END_TO && line->end[begin] != KIRI_END_TO &&
-                   RestDistance(led->rest, end->rest) < SAME * work->snap;
+                   kiriVec2_Distance(led->rest, end->rest) < SAME * work->snap;
     bool ok = isStill || LeadAlong(work, led);
     if (type == KIRI_END_TO || (type == KIRI_END_FROM && other == KIRI_NONE)) {
         led->isLost = type == KIRI_END_FROM;

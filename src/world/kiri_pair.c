@@ -65,26 +65,20 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
     return kiriTouches_Add(sheet, &touch);
 }
 
-/* Reserves for kiriPairs_JoinCalm: pieces as they are now, or as a ready update will make them. */
-static bool ReserveCalm(kiriWorld* world)
-{
-    int64_t count = 0;
-    KIRI_EACH_INDEX(k, world->active) {
-        const kiriSheetData* sheet = kiriWorld_Active(world, k);
-        bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
-        int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-        count += kiriMax(next, now);
-    }
-    return kiriArrays_Reserve(&world->memory, count, &world->pairs.parents, &world->pairs.calms);
-}
-
 bool kiriPairs_AddTouches(kiriWorld* world)
 {
     bool ok = true;
     KIRI_EACH_WHILE(ok, kiriPairTouch, touch, world->pairs.touches) {
         ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
     }
-    return ok && ReserveCalm(world);
+    /* Room for kiriPairs_JoinCalm: pieces as they are now, or as a ready update will make them. */
+    int64_t count = 0;
+    KIRI_EACH_ACTIVE(sheet, world) {
+        bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
+        int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
+        count += kiriMax(next, now);
+    }
+    return ok && kiriArrays_Reserve(&world->memory, count, &world->pairs.parents, &world->pairs.calms);
 }
 
 #define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
