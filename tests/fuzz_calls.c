@@ -1,35 +1,17 @@
 /* Sequences of public calls, with whatever arguments. */
 #include "fuzz_world.h"
 
-static FuzzIds* Sheets(Fuzz* fuzz)
-{
-    return &fuzz->sheets;
-}
-
-static FuzzIds* Pins(Fuzz* fuzz)
-{
-    return &fuzz->pins;
-}
-
-static FuzzIds* Cuts(Fuzz* fuzz)
-{
-    return &fuzz->cuts;
-}
-
-static FuzzIds* Obstacles(Fuzz* fuzz)
-{
-    return &fuzz->obstacles;
-}
-
-static FuzzIds* Blades(Fuzz* fuzz)
-{
-    return &fuzz->blades;
-}
-
-static FuzzIds* Seams(Fuzz* fuzz)
-{
-    return &fuzz->seams;
-}
+#define IDS(Name, member)                                                                                              \
+    static FuzzIds* Name(Fuzz* fuzz)                                                                                   \
+    {                                                                                                                  \
+        return &fuzz->member;                                                                                          \
+    }
+IDS(Sheets, sheets)
+IDS(Pins, pins)
+IDS(Cuts, cuts)
+IDS(Obstacles, obstacles)
+IDS(Blades, blades)
+IDS(Seams, seams)
 
 /* The pointer, or null where the bit says so. */
 #define OR_NULL(bit, pointer) ((act->nulls >> (bit)&1u) != 0 ? NULL : (pointer))
@@ -49,6 +31,13 @@ static void Say(FuzzAct* act, const void* data, size_t bytes)
 
 #define CALL(name) static kiriResult Call##name(kiriWorld* world, FuzzAct* act)
 
+/* A call of which nothing is said but its result. */
+#define RETURN(name, result)                                                                                           \
+    CALL(name)                                                                                                         \
+    {                                                                                                                  \
+        return result;                                                                                                 \
+    }
+
 /* ---- World ---- */
 
 CALL(Tick)
@@ -57,20 +46,9 @@ CALL(Tick)
     return kiriWorld_Tick(world, (uint32_t)act->numbers[0] < 8 ? steps[act->numbers[0]] : act->scalar, act->numbers[1]);
 }
 
-CALL(PlainTick)
-{
-    return kiriWorld_Tick(world, 1.0f / 60.0f, 1);
-}
-
-CALL(SetGravity)
-{
-    return kiriWorld_SetGravity(world, OR_NULL(0, act->vectors[0]));
-}
-
-CALL(SetBudget)
-{
-    return kiriWorld_SetBudget(world, OR_NULL(0, &act->def.budget));
-}
+RETURN(PlainTick, kiriWorld_Tick(world, 1.0f / 60.0f, 1))
+RETURN(SetGravity, kiriWorld_SetGravity(world, OR_NULL(0, act->vectors[0])))
+RETURN(SetBudget, kiriWorld_SetBudget(world, OR_NULL(0, &act->def.budget)))
 
 CALL(GetEvents)
 {
@@ -84,20 +62,9 @@ CALL(GetEvents)
 
 /* ---- Sheets ---- */
 
-CALL(CreateSheet)
-{
-    return kiriCreateSheet(world, OR_NULL(0, &act->def.sheet), OR_NULL(1, &act->said.id));
-}
-
-CALL(DestroySheet)
-{
-    return kiriDestroySheet(world, act->sheet);
-}
-
-CALL(SetSettings)
-{
-    return kiriSheet_SetSettings(world, act->sheet, OR_NULL(0, &act->def.settings));
-}
+RETURN(CreateSheet, kiriCreateSheet(world, OR_NULL(0, &act->def.sheet), OR_NULL(1, &act->said.id)))
+RETURN(DestroySheet, kiriDestroySheet(world, act->sheet))
+RETURN(SetSettings, kiriSheet_SetSettings(world, act->sheet, OR_NULL(0, &act->def.settings)))
 
 CALL(GetDirty)
 {
@@ -149,25 +116,11 @@ CALL(EstimateError)
     return result;
 }
 
-CALL(Wake)
-{
-    return kiriSheet_Wake(world, act->sheet);
-}
-
-CALL(Transform)
-{
-    return kiriSheet_Transform(world, act->sheet, OR_NULL(0, act->rotation), OR_NULL(1, act->vectors[0]));
-}
-
-CALL(SetVelocity)
-{
-    return kiriSheet_SetVelocity(world, act->sheet, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]));
-}
-
-CALL(SetPieceVelocity)
-{
-    return kiriFrame_SetPieceVelocity(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]));
-}
+RETURN(Wake, kiriSheet_Wake(world, act->sheet))
+RETURN(Transform, kiriSheet_Transform(world, act->sheet, OR_NULL(0, act->rotation), OR_NULL(1, act->vectors[0])))
+RETURN(SetVelocity, kiriSheet_SetVelocity(world, act->sheet, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1])))
+RETURN(SetPieceVelocity,
+       kiriFrame_SetPieceVelocity(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1])))
 
 CALL(UserData)
 {
@@ -261,47 +214,17 @@ CALL(GetPiece)
                                                  OR_NULL(3, &act->said.count));
 }
 
-CALL(DetachPiece)
-{
-    return kiriFrame_DetachPiece(world, act->frame, OR_NULL(0, &act->said.id));
-}
-
-CALL(DestroyPiece)
-{
-    return kiriFrame_DestroyPiece(world, act->frame);
-}
-
-CALL(DetachPieces)
-{
-    return kiriWorld_DetachPieces(world, OR_NULL(0, act->frames), act->frameCount, OR_NULL(1, act->said.ids));
-}
-
-CALL(DestroyPieces)
-{
-    return kiriWorld_DestroyPieces(world, OR_NULL(0, act->frames), act->frameCount);
-}
-
-CALL(DropCrumbs)
-{
-    return kiriSheet_DropCrumbs(world, act->sheet, act->scalar, OR_NULL(0, &act->said.count));
-}
+RETURN(DetachPiece, kiriFrame_DetachPiece(world, act->frame, OR_NULL(0, &act->said.id)))
+RETURN(DestroyPiece, kiriFrame_DestroyPiece(world, act->frame))
+RETURN(DetachPieces, kiriWorld_DetachPieces(world, OR_NULL(0, act->frames), act->frameCount, OR_NULL(1, act->said.ids)))
+RETURN(DestroyPieces, kiriWorld_DestroyPieces(world, OR_NULL(0, act->frames), act->frameCount))
+RETURN(DropCrumbs, kiriSheet_DropCrumbs(world, act->sheet, act->scalar, OR_NULL(0, &act->said.count)))
 
 /* ---- Cuts ---- */
 
-CALL(BeginCut)
-{
-    return kiriBeginCut(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, &act->said.id));
-}
-
-CALL(Extend)
-{
-    return kiriCut_Extend(world, act->cut, OR_NULL(0, act->points), act->pointCount);
-}
-
-CALL(EndCut)
-{
-    return kiriCut_End(world, act->cut);
-}
+RETURN(BeginCut, kiriBeginCut(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, &act->said.id)))
+RETURN(Extend, kiriCut_Extend(world, act->cut, OR_NULL(0, act->points), act->pointCount))
+RETURN(EndCut, kiriCut_End(world, act->cut))
 
 CALL(WholeCut)
 {
@@ -318,113 +241,37 @@ CALL(Slice)
     return kiriSheet_Slice(world, act->sheet, OR_NULL(0, blade), OR_NULL(1, &act->said.id));
 }
 
-CALL(BeginBlade)
-{
-    return kiriBeginBlade(world, act->sheet, OR_NULL(0, &act->said.id));
-}
-
-CALL(MoveEdge)
-{
-    return kiriBlade_MoveEdge(world, act->blade, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]));
-}
-
-CALL(MoveRay)
-{
-    return kiriBlade_MoveRay(world, act->blade, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]), act->scalar);
-}
-
-CALL(EndBlade)
-{
-    return kiriBlade_End(world, act->blade);
-}
+RETURN(BeginBlade, kiriBeginBlade(world, act->sheet, OR_NULL(0, &act->said.id)))
+RETURN(MoveEdge, kiriBlade_MoveEdge(world, act->blade, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1])))
+RETURN(MoveRay,
+       kiriBlade_MoveRay(world, act->blade, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]), act->scalar))
+RETURN(EndBlade, kiriBlade_End(world, act->blade))
 
 /* ---- Frames and loads ---- */
 
-CALL(Hold)
-{
-    return kiriFrame_Hold(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation));
-}
-
-CALL(Release)
-{
-    return kiriFrame_Hold(world, act->frame, NULL, NULL);
-}
-
-CALL(ApplyToFrame)
-{
-    return kiriFrame_ApplyForce(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]));
-}
-
-CALL(ApplyToSheet)
-{
-    return kiriSheet_ApplyForce(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->vectors[0]),
-                                OR_NULL(2, act->vectors[1]));
-}
-
-CALL(ApplyLineLoad)
-{
-    return kiriSheet_ApplyLineLoad(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
-                                   OR_NULL(2, act->vectors[0]));
-}
-
-CALL(ApplyPressure)
-{
-    return kiriSheet_ApplyPressure(world, act->sheet, act->scalar);
-}
-
-CALL(ApplyImpulse)
-{
-    return kiriSheet_ApplyImpulse(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->vectors[0]));
-}
-
-CALL(SetWind)
-{
-    return kiriSheet_SetWind(world, act->sheet, OR_NULL(0, &act->def.wind));
-}
+RETURN(Hold, kiriFrame_Hold(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation)))
+RETURN(Release, kiriFrame_Hold(world, act->frame, NULL, NULL))
+RETURN(ApplyToFrame, kiriFrame_ApplyForce(world, act->frame, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1])))
+RETURN(ApplyToSheet, kiriSheet_ApplyForce(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->vectors[0]),
+                                          OR_NULL(2, act->vectors[1])))
+RETURN(ApplyLineLoad, kiriSheet_ApplyLineLoad(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
+                                              OR_NULL(2, act->vectors[0])))
+RETURN(ApplyPressure, kiriSheet_ApplyPressure(world, act->sheet, act->scalar))
+RETURN(ApplyImpulse, kiriSheet_ApplyImpulse(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->vectors[0])))
+RETURN(SetWind, kiriSheet_SetWind(world, act->sheet, OR_NULL(0, &act->def.wind)))
 
 /* ---- Pins and contacts ---- */
 
-CALL(CreatePin)
-{
-    return kiriCreatePin(world, act->sheet, OR_NULL(0, &act->def.pin), OR_NULL(1, &act->said.id));
-}
-
-CALL(ClampLine)
-{
-    return kiriSheet_ClampLine(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
-                               OR_NULL(2, &act->said.id));
-}
-
-CALL(HingeLine)
-{
-    return kiriSheet_HingeLine(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
-                               OR_NULL(2, &act->said.id));
-}
-
-CALL(SetTarget)
-{
-    return kiriPin_SetTarget(world, act->pin, OR_NULL(0, act->vectors[0]));
-}
-
-CALL(SetPose)
-{
-    return kiriPin_SetPose(world, act->pin, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation));
-}
-
-CALL(SetBreakForce)
-{
-    return kiriPin_SetBreakForce(world, act->pin, act->scalar);
-}
-
-CALL(DestroyPin)
-{
-    return kiriDestroyPin(world, act->pin);
-}
-
-CALL(SetContacts)
-{
-    return kiriSheet_SetContacts(world, act->sheet, OR_NULL(0, act->def.contacts), act->numbers[0]);
-}
+RETURN(CreatePin, kiriCreatePin(world, act->sheet, OR_NULL(0, &act->def.pin), OR_NULL(1, &act->said.id)))
+RETURN(ClampLine, kiriSheet_ClampLine(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
+                                      OR_NULL(2, &act->said.id)))
+RETURN(HingeLine, kiriSheet_HingeLine(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->rests[1]),
+                                      OR_NULL(2, &act->said.id)))
+RETURN(SetTarget, kiriPin_SetTarget(world, act->pin, OR_NULL(0, act->vectors[0])))
+RETURN(SetPose, kiriPin_SetPose(world, act->pin, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation)))
+RETURN(SetBreakForce, kiriPin_SetBreakForce(world, act->pin, act->scalar))
+RETURN(DestroyPin, kiriDestroyPin(world, act->pin))
+RETURN(SetContacts, kiriSheet_SetContacts(world, act->sheet, OR_NULL(0, act->def.contacts), act->numbers[0]))
 
 CALL(GetContactForces)
 {
@@ -439,30 +286,13 @@ CALL(GetContactForces)
 
 /* ---- Obstacles ---- */
 
-CALL(CreateObstacle)
-{
-    return kiriCreateObstacle(world, OR_NULL(0, &act->def.obstacle), OR_NULL(1, &act->said.id));
-}
-
-CALL(DestroyObstacle)
-{
-    return kiriDestroyObstacle(world, act->obstacle);
-}
-
-CALL(SetObstaclePose)
-{
-    return kiriObstacle_SetPose(world, act->obstacle, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation));
-}
-
-CALL(SetObstacleVelocity)
-{
-    return kiriObstacle_SetVelocity(world, act->obstacle, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1]));
-}
-
-CALL(SetSurfaceVelocity)
-{
-    return kiriObstacle_SetSurfaceVelocity(world, act->obstacle, OR_NULL(0, act->vectors[0]));
-}
+RETURN(CreateObstacle, kiriCreateObstacle(world, OR_NULL(0, &act->def.obstacle), OR_NULL(1, &act->said.id)))
+RETURN(DestroyObstacle, kiriDestroyObstacle(world, act->obstacle))
+RETURN(SetObstaclePose,
+       kiriObstacle_SetPose(world, act->obstacle, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->rotation)))
+RETURN(SetObstacleVelocity,
+       kiriObstacle_SetVelocity(world, act->obstacle, OR_NULL(0, act->vectors[0]), OR_NULL(1, act->vectors[1])))
+RETURN(SetSurfaceVelocity, kiriObstacle_SetSurfaceVelocity(world, act->obstacle, OR_NULL(0, act->vectors[0])))
 
 CALL(SetMass)
 {
@@ -481,21 +311,10 @@ CALL(GetObstacle)
 
 /* ---- Folds and seams ---- */
 
-CALL(CreateFoldedSheet)
-{
-    return kiriCreateFoldedSheet(world, OR_NULL(0, &act->def.sheet), OR_NULL(1, act->folds), act->foldCount,
-                                 OR_NULL(2, &act->said.id));
-}
-
-CALL(AddFold)
-{
-    return kiriSheet_AddFold(world, act->sheet, OR_NULL(0, &act->folds[0]), OR_NULL(1, &act->said.count));
-}
-
-CALL(SetFold)
-{
-    return kiriSheet_SetFold(world, act->sheet, act->numbers[0], act->scalar, act->vectors[0][0]);
-}
+RETURN(CreateFoldedSheet, kiriCreateFoldedSheet(world, OR_NULL(0, &act->def.sheet), OR_NULL(1, act->folds),
+                                                act->foldCount, OR_NULL(2, &act->said.id)))
+RETURN(AddFold, kiriSheet_AddFold(world, act->sheet, OR_NULL(0, &act->folds[0]), OR_NULL(1, &act->said.count)))
+RETURN(SetFold, kiriSheet_SetFold(world, act->sheet, act->numbers[0], act->scalar, act->vectors[0][0]))
 
 CALL(GetFold)
 {
@@ -507,20 +326,9 @@ CALL(GetFold)
     return result;
 }
 
-CALL(CreateSeam)
-{
-    return kiriCreateSeam(world, OR_NULL(0, &act->def.seam), OR_NULL(1, &act->said.id));
-}
-
-CALL(DestroySeam)
-{
-    return kiriDestroySeam(world, act->seam);
-}
-
-CALL(SetHinge)
-{
-    return kiriSeam_SetHinge(world, act->seam, act->scalar, act->vectors[0][0]);
-}
+RETURN(CreateSeam, kiriCreateSeam(world, OR_NULL(0, &act->def.seam), OR_NULL(1, &act->said.id)))
+RETURN(DestroySeam, kiriDestroySeam(world, act->seam))
+RETURN(SetHinge, kiriSeam_SetHinge(world, act->seam, act->scalar, act->vectors[0][0]))
 
 CALL(GetStitch)
 {
