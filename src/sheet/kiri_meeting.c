@@ -189,11 +189,9 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margi
 /* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
 static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
 {
-    if (height > 2.0 * meeting->gap) {
-        return 0.0;
-    }
-    kiriVec3 force = kiriTouches_ForceOf(meeting->sheet, MakeKey(meeting, false, (uint32_t)vertex));
-    return kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * meeting->gap : 0.0;
+    bool pushed = height <= 2.0 * meeting->gap &&
+                  kiriTouches_Find(meeting->sheet, MakeKey(meeting, false, (uint32_t)vertex)) != NULL;
+    return pushed ? PREFERRED * meeting->gap : 0.0;
 }
 
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
@@ -779,7 +777,7 @@ static int32_t PatchSide(const kiriSheetData* sheet, double square)
         area += frame->area;
     }
     double side = sqrt(area / (PATCHES_A_FRAME * sheet->frames.count)) / square;
-    return side < 2.0 ? 1 : side < 4096.0 ? (int32_t)side : 4096;
+    return (int32_t)kiriClamp(side, 1.0, 4096.0);
 }
 
 typedef struct NearBox {

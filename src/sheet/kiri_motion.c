@@ -188,19 +188,21 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     return next;
 }
 
-/* Updates the calm time of moved pieces, from the fastest frame (root mean square over its material). */
+/* Updates the calm time of moved pieces, from the mean over the material of the square of the energy by mass. So a flap
+   counts by more than its share. */
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
     KIRI_EACH(const int32_t, body, sheet->solver->moved.bodies) {
         kiriRest* rest = &sheet->layout.pieces.data[*body].rest;
         kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, *body);
-        bool isCalm = true;
-        KIRI_EACH_WHILE(isCalm, const int32_t, at, frames) {
+        double spare = 0.0;
+        KIRI_EACH(const int32_t, at, frames) {
             const kiriFrameData* frame = &sheet->frames.data[*at];
-            isCalm = kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass;
+            double moves = kiriFrame_KineticEnergy(frame, &sheet->settings.material) / frame->mass;
+            spare += frame->mass * (limit * limit - moves * moves);
         }
-        rest->calm = isCalm ? rest->calm + dt : 0.0;
+        rest->calm = spare > 0.0 ? rest->calm + dt : 0.0;
     }
 }
 
