@@ -1,6 +1,6 @@
 #include "layout_hash.h"
 
-#include "core/kiri_archive.h"
+#include "hash.h"
 #include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
 

@@ -3,7 +3,7 @@
 #ifndef KIRI_MATRIX_HASH_H
 #define KIRI_MATRIX_HASH_H
 
-#include "core/kiri_archive.h"
+#include "hash.h"
 #include "solver/kiri_matrix.h"
 
 enum { MATRIX_SIZES = 3, MATRIX_FRAMES = 40, MATRIX_ELEMENTS = 60, MATRIX_ROWS = 7, MATRIX_MEMBERS = 4 };

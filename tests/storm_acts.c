@@ -3,7 +3,7 @@
 
 #include "core/kiri_float.h" /* the storm gives the same bits on every machine */
 
-#include "core/kiri_archive.h"
+#include "hash.h"
 
 /* ---- Random numbers ---- */
 

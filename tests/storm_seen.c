@@ -1,6 +1,6 @@
 #include "storm.h"
 
-#include "core/kiri_archive.h"
+#include "hash.h"
 
 static void HashFloats(uint64_t* hash, const float* floats, int64_t count)
 {

@@ -36,14 +36,6 @@ static inline void kiriHash_Pair(uint64_t* hash, int32_t first, int32_t second)
     kiriHash_Int64(hash, (int64_t)((uint64_t)(uint32_t)first << 32 | (uint32_t)second));
 }
 
-/* Adds the bits of a double: 0.0 and -0.0 differ. */
-static inline void kiriHash_Double(uint64_t* hash, double value)
-{
-    int64_t bits;
-    memcpy(&bits, &value, sizeof(bits));
-    kiriHash_Int64(hash, bits);
-}
-
 /* State as bytes, and back: one table of fields a struct. Saves, loads, the checks of loaded bytes, snapshots and the
    state hash follow from the same tables.
 

@@ -497,11 +497,6 @@ int64_t kiriSolver_WorkOfIsland(const kiriMatrix* matrix, const kiriIslandBody* 
     return WorkOf(matrix, bodies[0].solver->size, frames, contacts);
 }
 
-int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount)
-{
-    return kiriSolver_ItemsOf(solver->allWork + contactCount);
-}
-
 int32_t kiriSolver_TakeSolved(kiriSolver* solver)
 {
     int32_t solved = solver->solved;

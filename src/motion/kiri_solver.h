@@ -209,9 +209,6 @@ static inline int64_t kiriSolver_ItemsOf(int64_t work)
     return 1 + work / 64;
 }
 
-/* Returns the items of a system of all bodies. */
-int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount);
-
 /* Returns the number of linear systems solved since the last call. */
 int32_t kiriSolver_TakeSolved(kiriSolver* solver);
 

@@ -729,6 +729,11 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
                       normal, above, NEARBY * gap, point->at, gap, touch);
 }
 
+static bool MeetsBox(const void* context, const kiriBox* box)
+{
+    return kiriBox_Meet(context, box);
+}
+
 static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
 {
     enum { MOST_SIDES = 4 };
@@ -741,7 +746,8 @@ static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
     kiriBox_Add(&box, a);
     kiriBox_Add(&box, b);
     search->crossed.count = 0;
-    bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
+    bool ok =
+        kiriBounds_Find(sheet->seen.bounds, &sheet->seen.surface, MeetsBox, &box, search->memory, &search->crossed);
     for (int32_t i = 0; ok && i < 3 * search->crossed.count && sides < MOST_SIDES; ++i) {
         const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, search->crossed.data[i / 3]);
         kiriTouch touch;

@@ -283,7 +283,7 @@ bool kiriMotion_Wait(kiriSheetData* sheet, double dt)
 
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)
 {
-    int64_t items = kiriSolver_MostItems(sheet->solver, sheet->touches.found.count);
+    int64_t items = kiriSolver_ItemsOf(sheet->solver->allWork + sheet->touches.found.count);
     return substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS) * items;
 }
 

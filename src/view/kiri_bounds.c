@@ -363,17 +363,6 @@ bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface,
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }
 
-static bool MeetsBox(const void* context, const kiriBox* box)
-{
-    return kiriBox_Meet(context, box);
-}
-
-bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,
-                    kiriIndices* found)
-{
-    return kiriBounds_Find(bounds, surface, MeetsBox, box, memory, found);
-}
-
 /* ---- The nearest triangle ---------------------------------------------------------------------------------------- */
 
 /* Returns the group of a triangle, or KIRI_NONE if it is hidden. */

@@ -116,10 +116,6 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
 bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
 
-/* Appends the triangles whose box meets a box, in ascending order. */
-bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const kiriBox* box, kiriMemory* memory,
-                    kiriIndices* found);
-
 /* Finds the first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector; of two at the
    same distance the higher index. hit->triangle is KIRI_NONE if there is none. Tests all triangles if the bounds do not
    fit the surface or are null, with the same result. */
