@@ -43,6 +43,7 @@ CONTENT_TYPES = """<?xml version="1.0" encoding="utf-8"?>
   <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml" />
   <Default Extension="nuspec" ContentType="application/octet" />
   <Default Extension="dll" ContentType="application/octet" />
+  <Default Extension="xml" ContentType="application/octet" />
   <Default Extension="so" ContentType="application/octet" />
   <Default Extension="md" ContentType="text/markdown" />
 </Types>
@@ -83,10 +84,10 @@ def write_unity(path, files):
     path.write_bytes(gzip.compress(packed.getvalue(), mtime=0))
 
 
-def write_nuget(path, version, library, assembly):
+def write_nuget(path, version, library, assembly, comments):
     files = {"[Content_Types].xml": CONTENT_TYPES.encode(), "_rels/.rels": RELATIONS.encode(),
              "Kiri.nuspec": (here / "kiri.nuspec").read_text().replace("@VERSION@", version).encode(),
-             "README.md": (here / "README.md").read_bytes(), "lib/net45/Kiri.dll": assembly,
+             "README.md": (here / "README.md").read_bytes(), "lib/net45/Kiri.dll": assembly, "lib/net45/Kiri.xml": comments,
              "runtimes/linux-x64/native/libkiri.so": library}
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as package:
         for name, data in files.items():
@@ -96,7 +97,8 @@ def write_nuget(path, version, library, assembly):
 def main(version, library, assembly, folder):
     library, folder = pathlib.Path(library).read_bytes(), pathlib.Path(folder)
     write_unity(folder / f"{UNITY}-{version}.tgz", unity_files(version, library))
-    write_nuget(folder / f"Kiri.{version}.nupkg", version, library, pathlib.Path(assembly).read_bytes())
+    write_nuget(folder / f"Kiri.{version}.nupkg", version, library, pathlib.Path(assembly).read_bytes(),
+                pathlib.Path(assembly).with_suffix(".xml").read_bytes())
 
 
 main(*sys.argv[1:])

@@ -9,13 +9,13 @@ CSHARP := build/csharp
 CSHARP_RUNTIME := $(wildcard bindings/csharp/Runtime/*.cs)
 CSHARP_UNITY := $(wildcard bindings/csharp/Runtime/Unity/*.cs)
 CSHARP_TESTS := $(addprefix bindings/csharp/Tests/,Layout.cs Tests.cs UnityStubs.cs)
-MCS = mcs -nologo -unsafe -optimize -langversion:7.2 -warnaserror -nowarn:649
+MCS = mcs -nologo -unsafe -optimize -langversion:7.2 -warnaserror -nowarn:649,1591
 CSHARP_RUN = LD_LIBRARY_PATH='$(CURDIR)/$(BUILD)' mono
 
 # The library, and with the components of Unity the tests.
 $(CSHARP)/tests.exe: $(CSHARP_RUNTIME) $(CSHARP_UNITY) $(CSHARP_TESTS) bindings/csharp/Tests/Twin.cs bindings/csharp/Tests/FirstCut.cs
 	@mkdir -p $(CSHARP)
-	@$(MCS) -target:library -out:$(CSHARP)/Kiri.dll $(CSHARP_RUNTIME)
+	@$(MCS) -target:library -doc:$(CSHARP)/Kiri.xml -out:$(CSHARP)/Kiri.dll $(CSHARP_RUNTIME)
 	@$(MCS) -r:$(CSHARP)/Kiri.dll -out:$(CSHARP)/first_cut.exe bindings/csharp/Tests/FirstCut.cs
 	@$(MCS) -r:$(CSHARP)/Kiri.dll -out:$(CSHARP)/twin.exe bindings/csharp/Tests/Twin.cs
 	@$(MCS) -define:KIRI_UNITY -main:Kiri.Tests.Tests -out:$@ $(CSHARP_RUNTIME) $(CSHARP_UNITY) $(CSHARP_TESTS) bindings/csharp/Tests/Twin.cs
@@ -47,5 +47,7 @@ package-csharp: $(BUILD)/libkiri.so $(CSHARP)/tests.exe
 	cd $(CSHARP_CLEAN); $(MCS) -out:unity.exe FirstCut.cs unity/package/Runtime/*.cs; cp nuget/lib/net45/Kiri.dll .; $(MCS) -r:Kiri.dll -out:nuget.exe FirstCut.cs; \
 	LD_LIBRARY_PATH=unity/package/Plugins/x86_64 mono unity.exe | grep -qx '2 pieces'; \
 	LD_LIBRARY_PATH=nuget/runtimes/linux-x64/native mono nuget.exe | grep -qx '2 pieces'; \
+	$(PYTHON) -c "import xml.etree.ElementTree as tree; assert len(tree.parse('nuget/lib/net45/Kiri.xml').findall('.//member')) > 300; \
+	    project = tree.parse('$(CURDIR)/bindings/csharp/Kiri.csproj'); assert project.findtext('.//TargetFrameworks') == 'netstandard2.0;net8.0'"; \
 	for file in $$(find unity/package/*/ ! -name '*.meta'); do [ -e "$${file%/}.meta" ] || { echo "csharp: $$file has no .meta"; exit 1; }; done; \
 	echo "csharp: $(CSHARP)/com.kiri.kiri-$(VERSION).tgz and Kiri.$(VERSION).nupkg, and a program of the two cuts"
