@@ -3,6 +3,7 @@
 #   make run      builds the library, cuts a bunny out of a hanging cloth, writes pictures to build/pictures
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
+#   make view     shows a recording or a save in a window; FILE=error.kiri
 #   make test     builds and runs all tests
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make check    compares figures of the sources with their limits, which only get stricter; includes, fields; no build
@@ -50,6 +51,7 @@ NEEDS_run := $(NEEDS_lib) libosmesa6-dev libpng-dev
 NEEDS_box2d := $(NEEDS_run) libbox2d-dev
 NEEDS_play := $(NEEDS_box2d) libsdl2-dev libsdl2-ttf-dev
 WANTS_play := fonts-dejavu-core
+NEEDS_view := $(NEEDS_run) libsdl2-dev
 NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
@@ -128,6 +130,7 @@ BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))
 RUN := $(BUILD)/samples/kiri-run
 BOX2D := $(BUILD)/samples/kiri-box2d
 PLAY := $(BUILD)/samples/kiri-play
+VIEW := $(BUILD)/samples/kiri-view
 # The Python binding is tested where Python has cffi; a sanitized library cannot be loaded by a plain Python.
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
@@ -148,7 +151,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
-.PHONY: all run box2d jolt play python bindings described builds exported lib single example bench accuracy trade contact extremes gallery guide deps
+.PHONY: all run box2d jolt play view python bindings described builds exported lib single example bench accuracy trade contact extremes gallery guide deps
 .PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -184,6 +187,10 @@ jolt: $(BUILD)/libkiri.a
 play: packages-play
 	@$(MAKE) --no-print-directory $(PLAY)
 	$(PLAY) $(if $(GAME),--game $(GAME)) $(ARGS)
+
+view: packages-view
+	@$(MAKE) --no-print-directory $(VIEW)
+	$(VIEW) $(FILE)
 
 # Each program that passes leaves a file in $(BUILD)/passed; the end says how many, and what was skipped and why.
 test: packages-test
@@ -389,8 +396,12 @@ described: $(BUILD)/libkiri.so
 builds: lib $(RUN)
 	@sh tests/test_build.sh
 
-exported: $(RUN)
+exported: $(RUN) $(VIEW)
 	@mkdir -p $(BUILD)/exported && $(PYTHON) tests/test_glb.py $(RUN) $(BUILD)/exported
+	@$(RUN) --quiet --ticks 70 --every 0 --record $(BUILD)/exported/view.kiri > $(BUILD)/exported/log
+	@view=$(BUILD)/exported/view; $(VIEW) $$view.kiri 60 $$view.1.png 25 $$view.2.png 60 $$view.3.png 25 $$view.4.png && \
+	    cmp $$view.1.png $$view.3.png && cmp $$view.2.png $$view.4.png && ! cmp -s $$view.1.png $$view.2.png && \
+	    echo "view: ticks look alike from before and from after"
 
 # The folders of src are floors: a file includes from its own and from lower ones, never from higher ones. Circles inside a
 # folder are counted by the ratchet.
@@ -522,6 +533,11 @@ $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 $(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(BUILD)/samples/draw.c.o $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
+
+$(VIEW): $(addprefix $(BUILD)/samples/,view/main.c.o games/window.c.o games/sound.c.o) \
+        $(filter-out %/run.c.o,$(filter %.c.o,$(SAMPLE_OBJECTS))) $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lSDL2 -lOSMesa -lpng -lz -lm
 
 $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"

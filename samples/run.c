@@ -1,25 +1,22 @@
 /* Runs a scene, writes its pictures, and prints what the library did and how long it took. */
 #define _POSIX_C_SOURCE 199309L
 
-#include "debug.h"
-#include "draw.h"
 #include "export.h"
 #include "glb.h"
 #include "image.h"
 #include "run_options.h"
 #include "scene.h"
 #include "scene_record.h"
-#include "sheets.h"
+#include "shot.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 
-enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, MAX_BLADES = 4, LAST_DELAY = 60 };
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, LAST_DELAY = 60 };
 
 static bool MakeFolders(const char* path)
 {
@@ -44,27 +41,21 @@ static bool MakeFolders(const char* path)
 /* ---- Pictures --------------------------------------------------------------------------------------------------- */
 
 typedef struct Film {
-    Painter* painter;
+    Shot shot;
     Image picture, tile, contactSheet;
     Apng moving; /* if options say so */
     Glb model;   /* the same */
-    Debug debug;
-    Sheets sheets;
     int32_t pictures, moments;
 } Film;
 
 static void Film_Destroy(Film* film)
 {
-    if (film->painter != NULL) {
-        Painter_Destroy(film->painter);
-    }
+    Shot_Destroy(&film->shot);
     Image_Free(&film->picture);
     Image_Free(&film->tile);
     Image_Free(&film->contactSheet);
     Apng_Close(&film->moving);
     Glb_Free(&film->model);
-    Debug_Destroy(&film->debug);
-    Sheets_Free(&film->sheets);
 }
 
 static bool OpenMoving(Film* film, const Options* options, int32_t ticks)
@@ -79,13 +70,12 @@ static bool OpenMoving(Film* film, const Options* options, int32_t ticks)
 
 static bool Film_Create(Film* film, const Options* options, int32_t ticks)
 {
-    *film = (Film){ .painter = NULL };
+    *film = (Film){ .pictures = 0 };
     if (options->every == 0) {
         return true;
     }
-    film->painter = Painter_Create(options->width, options->height);
     int32_t width = options->width / 2, height = options->height / 2;
-    bool fine = film->painter != NULL && Debug_Create(&film->debug) &&
+    bool fine = Shot_Create(&film->shot, options->width, options->height) &&
                 Image_Create(&film->picture, options->width, options->height) &&
                 Image_Create(&film->tile, width, height) &&
                 Image_Create(&film->contactSheet, SHEET_COLUMNS * width + (SHEET_COLUMNS - 1) * SHEET_GAP,
@@ -98,99 +88,6 @@ static bool Film_Create(Film* film, const Options* options, int32_t ticks)
         Film_Destroy(film);
     }
     return fine;
-}
-
-/* Where the vertex is that lies nearest to a rest point. */
-static const float* FindVertex(const kiriMesh* mesh, const float restPoint[2])
-{
-    int32_t best = 0;
-    float bestDistance = INFINITY;
-    for (int32_t i = 0; i < mesh->vertexCount; i++) {
-        float u = mesh->restPositions[2 * i] - restPoint[0], v = mesh->restPositions[2 * i + 1] - restPoint[1];
-        if (u * u + v * v < bestDistance) {
-            bestDistance = u * u + v * v;
-            best = i;
-        }
-    }
-    return mesh->positions + 3 * best;
-}
-
-/* The camera stays where it is, looks at a rest point, and sees less. */
-static void MoveCloser(View* view, const float closeUp[3])
-{
-    const float rest[2] = { view->size * closeUp[0], view->size * closeUp[1] };
-    const float* at = FindVertex(&view->mesh, rest);
-    for (int i = 0; i < 3; i++) {
-        view->camera.target[i] = at[i] / view->size;
-    }
-    view->camera.fieldOfView /= closeUp[2];
-}
-
-static bool ShowDebug(View* view, Film* film, const Scene* scene, const Options* options)
-{
-    const Raster* raster = &film->debug.raster;
-    if (!Debug_Update(&film->debug, scene, &view->mesh, &options->debug)) {
-        return false;
-    }
-    view->raster = raster->colors;
-    view->rasterSize = RASTER_SIZE;
-    memcpy(view->rasterOrigin, raster->origin, sizeof view->rasterOrigin);
-    view->rasterWidth = RASTER_SIZE * raster->side;
-    return true;
-}
-
-/* To draw it is a mesh like another. */
-static bool TakeSolid(View* view, const Scene* scene, float thickness)
-{
-    kiriSolid solid;
-    if (kiriSheet_GetSolid(scene->world, scene->sheet, thickness, &solid) != KIRI_OK) {
-        return false;
-    }
-    view->isSolid = true;
-    view->mesh.positions = solid.positions;
-    view->mesh.normals = solid.normals;
-    view->mesh.restPositions = solid.restPositions;
-    view->mesh.indices = solid.indices;
-    view->mesh.vertexCount = solid.vertexCount;
-    view->mesh.triangleCount = solid.triangleCount;
-    return true;
-}
-
-static bool Film_Shoot(Film* film, const Scene* scene, const Options* options)
-{
-    View view = { .camera = scene->type->camera,
-                  .size = scene->type->size,
-                  .look = scene->type->look,
-                  .pins = scene->targets[0],
-                  .pinCount = scene->pinCount,
-                  .pegs = scene->type->pegs };
-    float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
-    if (Debug_IsWanted(&options->debug)) { /* a raster over the rest plane is of one sheet */
-        kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
-    } else if (Sheets_Take(&film->sheets, scene->world)) {
-        view.mesh = film->sheets.mesh;
-    } else {
-        return false;
-    }
-    if (options->solid > 0 && !TakeSolid(&view, scene, 1e-3f * (float)options->solid)) {
-        return false;
-    }
-    if (options->closeUp[2] > 0.0f) {
-        MoveCloser(&view, options->closeUp);
-    }
-    if (Debug_IsWanted(&options->debug) && !ShowDebug(&view, film, scene, options)) {
-        return false;
-    }
-    if (!Debug_DrawLines(&film->debug, scene, &options->debug)) {
-        return false;
-    }
-    view.lines = film->debug.lines;
-    view.bladeCount = Scene_GetBlades(scene, restPoints, MAX_BLADES);
-    view.blades = blades[0];
-    for (int32_t i = 0; i < view.bladeCount; i++) {
-        memcpy(blades[i], FindVertex(&view.mesh, restPoints[i]), sizeof blades[i]);
-    }
-    return Painter_Paint(film->painter, &view, &film->picture);
 }
 
 static bool WritePicture(Film* film, const Options* options)
@@ -238,7 +135,7 @@ static bool Film_Tick(Film* film, const Scene* scene, const Options* options, in
     if (!picture && !moment) {
         return true;
     }
-    if (!Film_Shoot(film, scene, options)) {
+    if (!Shot_Take(&film->shot, scene, options, &film->picture)) {
         fprintf(stderr, "no memory for a picture\n");
         return false;
     }
