@@ -315,8 +315,7 @@ typedef struct WayNode {
 } WayNode;
 
 /* A search over the corners, from the start to the goal, which is the last node: A*, by the straight line to the goal
-   (Hart, Nilsson and Raphael 1968). Whether one can go from a node to another is tested only when that would be the
-   next step. */
+   (Hart, Nilsson and Raphael 1968). Whether a node sees another one is tested only when that would be the next step. */
 typedef struct WaySearch {
     const kiriSight* sight;
     WayNode node[KIRI_MOST_TURNS + 2];
@@ -327,40 +326,36 @@ typedef char NodesFitBits[KIRI_MOST_TURNS + 2 <= 64 ? 1 : -1];
 
 static const double kiriNoWay = 1e300;
 
-/* May a shortest way leave the node in this direction, or come from it? At a corner only where both edges are on one
-   side: else it would lead out of the material, or could be cut short. */
-static bool IsTangent(const WaySearch* s, const WayNode* node, kiriVec2 direction)
+/* Returns true if a shortest way may lead along this line through the node. At a corner it does only where both edges are
+   on one side: else it would lead out of the material, or could be cut short. */
+static bool IsTangent(const WaySearch* s, const WayNode* node, kiriVec2 direction, double least)
 {
     if (node == s->node || node == &s->node[s->count - 1]) {
         return true;
     }
-    double least = 1e-6 * s->sight->grid->side * kiriVec2_Length(direction);
     double a = kiriVec2_Cross(direction, node->before), b = kiriVec2_Cross(direction, node->after);
     return !(a > least && b < -least) && !(a < -least && b > least);
 }
 
+/* Takes the way to a node over one that is done, if it is shorter. */
 static inline void TryWay(WaySearch* s, int32_t from, WayNode* node)
 {
-    if ((node->blocked >> from & 1) == 0) {
-        double length = s->node[from].length + kiriVec2_Distance(node->at, s->node[from].at);
-        if (length < node->length) {
-            node->length = length;
-            node->whole = length + node->rest;
-            node->from = from;
-        }
+    kiriVec2 way = kiriVec2_Sub(node->at, s->node[from].at);
+    double size = kiriVec2_Length(way), length = s->node[from].length + size, least = 1e-6 * s->sight->grid->side * size;
+    if ((node->blocked >> from & 1) == 0 && length < node->length && IsTangent(s, &s->node[from], way, least) &&
+        IsTangent(s, node, way, least)) {
+        node->length = length;
+        node->whole = length + node->rest;
+        node->from = from;
     }
 }
 
-/* Takes the next step to a node if one can go there; else the way over another node may be the shortest, and among ways
-   of one length the lowest counts. Most steps fail, and nearly all for the corners alone. */
+/* Takes the next step to a node if one can go there; else the way over another node may be the shortest. */
 static void Step(WaySearch* s, int32_t k)
 {
     WayNode* node = &s->node[k];
     KIRI_ASSERT(!node->isDone && (k == 0 || s->node[node->from].isDone));
-    const WayNode* from = &s->node[node->from];
-    kiriVec2 way = kiriVec2_Sub(node->at, from->at);
-    bool canGo = k == 0 || (IsTangent(s, from, way) && IsTangent(s, node, kiriVec2_Scale(-1.0, way)) &&
-                            kiriSight_IsClear(s->sight, from->at, node->at));
+    bool canGo = k == 0 || kiriSight_IsClear(s->sight, s->node[node->from].at, node->at);
     node->isDone = canGo;
     node->whole = kiriNoWay;
     if (!canGo) {
