@@ -5,7 +5,7 @@
 static const double Length = 0.03, Width = 0.006, Thickness = 1e-4, Young = 7e10, Yield = 1e8;
 static const float Dt = 1.0f / 60.0f;
 
-/* A strip along u, with frames in a row, clamped at both ends. */
+/* A strip along u, clamped at both ends. Its frames are in a row, or where a seed above 0 puts them. */
 typedef struct Strip {
     Host host;
     kiriSheet sheet;
@@ -13,7 +13,7 @@ typedef struct Strip {
     int32_t frames;
 } Strip;
 
-static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double hardening)
+static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double hardening, uint32_t seed)
 {
     const float ends[2][2][2] = { { { 0.0f, 0.0f }, { 0.0f, (float)Width } },
                                   { { (float)Length, 0.0f }, { (float)Length, (float)Width } } };
@@ -25,8 +25,9 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
     s->host.every = 100;
     OK(kiriWorld_SetGravity(s->host.world, none));
     for (int32_t i = 0; i < frames; ++i) {
-        points[2 * i] = (float)(Length * (i + 0.5) / frames);
-        points[2 * i + 1] = (float)(0.5 * Width);
+        double u = seed > 0 ? RandomBetween(&seed, 0.25, 0.75) : 0.5, v = seed > 0 ? RandomBetween(&seed, 0.2, 0.8) : 0.5;
+        points[2 * i] = (float)(Length * (i + u) / frames);
+        points[2 * i + 1] = (float)(v * Width);
     }
     def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-4f, (float)yieldStress,
                                    (float)hardening, 0 };
@@ -38,6 +39,20 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
     for (int k = 0; k < 2; ++k) {
         OK(kiriSheet_ClampLine(s->host.world, s->sheet, ends[k][0], ends[k][1], &s->clamps[k]));
     }
+}
+
+static kiriFrameState Strip_End(const Strip* s, double from, double to)
+{
+    kiriFrame frames[128];
+    kiriFrameState last = { 0 };
+    int32_t count;
+    OK(kiriSheet_GetFrames(s->host.world, s->sheet, frames, 128, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        kiriFrameState state = World_FrameState(s->host.world, frames[i]);
+        bool isLast = state.restPoint[1] > from && state.restPoint[1] < to && state.restPoint[0] > last.restPoint[0];
+        last = isLast ? state : last;
+    }
+    return last;
 }
 
 /* Bends the strip to an arc of a curvature by its second clamp, in this number of ticks. Returns the work of the clamp. */
@@ -113,7 +128,7 @@ static void CheckSpringback(int32_t frames, double radius, double hardening, int
     Strip s;
     double force[3], torque[3], ratio = 1.0 / (radius * YieldCurvature());
     double moment = Young * pow(Thickness, 3.0) / 12.0 * YieldCurvature() * Width;
-    Strip_Start(&s, frames, Yield, hardening);
+    Strip_Start(&s, frames, Yield, hardening, 0);
     Strip_Bend(&s, 0.0, 1.0 / radius, ticks);
     Strip_Rest(&s, 30);
     OK(kiriPin_GetReaction(s.host.world, s.clamps[1], force, torque));
@@ -144,6 +159,36 @@ static void TestSpringback(void** unused)
     CheckSpringback(9, 0.05, 0.0, 60, 0.0); /* below the yield curvature all of it springs back */
 }
 
+/* Frames anywhere: how far the strip springs back, and a cut along it, hardly depend on them. */
+static void TestAnyFrames(void** unused)
+{
+    double theory = Residual(100.0, 0.0);
+    for (uint32_t seed = 1; seed <= 8; ++seed) {
+        Strip s;
+        Strip_Start(&s, seed % 2 == 0 ? 9 : 14, Yield, 0.0, seed);
+        Strip_Bend(&s, 0.0, 100.0, 60);
+        OK(kiriDestroyPin(s.host.world, s.clamps[1]));
+        Strip_Rest(&s, 200);
+        kiriFrameState end = Strip_End(&s, 0.0, Width);
+        double bent = fabs(TurnOf(&end)) / (double)end.restPoint[0];
+        const float from[2] = { -0.001f, 0.0028f }, to[2] = { (float)Length + 0.001f, 0.0033f };
+        kiriCut cut = World_BeginCut(s.host.world, s.sheet, from);
+        OK(kiriCut_Extend(s.host.world, cut, to, 1));
+        OK(kiriCut_End(s.host.world, cut));
+        Strip_Rest(&s, 200);
+        print_message("layout %u: %.4f of theory;", (unsigned)seed, bent / theory);
+        for (int half = 0; half < 2; ++half) {
+            end = Strip_End(&s, half == 0 ? 0.0 : 0.0033, half == 0 ? 0.0028 : Width);
+            double now = fabs(TurnOf(&end)) / (double)end.restPoint[0];
+            print_message(" %.4f", now / theory);
+            assert_true(fabs(now / theory - 1.0) < 0.1);
+        }
+        assert_true(fabs(bent / theory - 1.0) < 0.03);
+        print_message("\n");
+        Host_Stop(&s.host);
+    }
+}
+
 /* Bends a strip to and fro. Its elastic energy is the energy of the elastic curvature, and the rest of the work is what flow
    takes: by the law, whose reach grows with all that has flowed. */
 static void TestEnergy(void** unused)
@@ -152,7 +197,7 @@ static void TestEnergy(void** unused)
     double stiffness = Young * pow(Thickness, 3.0) / 12.0 * Width * Length, most = YieldCurvature();
     double elastic = 0.0, flowed = 0.0, reach = 1.0, work = 0.0, lost = 0.0, at = 0.0;
     Strip s;
-    Strip_Start(&s, 9, Yield, 0.0);
+    Strip_Start(&s, 9, Yield, 0.0, 0);
     for (int leg = 0; leg < 4; ++leg) {
         enum { PARTS = 20000 };
         double step = (goals[leg] - at) / PARTS;
@@ -183,7 +228,7 @@ static void TestStrongIsElastic(void** unused)
 {
     Strip s[2];
     for (int k = 0; k < 2; ++k) {
-        Strip_Start(&s[k], 9, k == 0 ? 0.0 : 1e12, 0.1);
+        Strip_Start(&s[k], 9, k == 0 ? 0.0 : 1e12, 0.1, 0);
         Strip_Bend(&s[k], 0.0, 60.0, 20);
         const float from[2] = { 0.012f, -0.001f }, to[2] = { 0.016f, 0.004f };
         kiriCut cut = World_BeginCut(s[k].host.world, s[k].sheet, from);
@@ -207,7 +252,7 @@ static void TestStrongIsElastic(void** unused)
 static void TestPiecesKeepTheirShape(void** unused)
 {
     Strip s;
-    Strip_Start(&s, 9, Yield, 0.0);
+    Strip_Start(&s, 9, Yield, 0.0, 0);
     Strip_Bend(&s, 0.0, 100.0, 60);
     OK(kiriDestroyPin(s.host.world, s.clamps[1]));
     Strip_Rest(&s, 200);
@@ -222,6 +267,10 @@ static void TestPiecesKeepTheirShape(void** unused)
     assert_true(counts.frames > 12);
     assert_true(fabs(Curvature(&s.host, s.sheet, 0.0, cutAt) / theory - 1.0) < 5e-3);
     assert_true(fabs(Curvature(&s.host, s.sheet, cutAt, Width) / theory - 1.0) < 5e-3);
+    for (int half = 0; half < 2; ++half) { /* and so they do at the clamp, where one half has new frames */
+        kiriFrameState end = Strip_End(&s, half == 0 ? 0.0 : cutAt, half == 0 ? cutAt : Width);
+        assert_true(fabs(fabs(TurnOf(&end)) / (theory * (double)end.restPoint[0]) - 1.0) < 5e-3);
+    }
 
     kiriFrame frames[128], leaver = 0;
     kiriSheet part = 0;
@@ -252,7 +301,7 @@ static void TestPiecesKeepTheirShape(void** unused)
 static void TestMaterialChanges(void** unused)
 {
     Strip s;
-    Strip_Start(&s, 9, 0.0, 0.0);
+    Strip_Start(&s, 9, 0.0, 0.0, 0);
     Strip_Bend(&s, 0.0, 30.0, 10);
     kiriSheetSettings settings = World_Settings(s.host.world, s.sheet);
     settings.material.yieldStress = (float)Yield;
@@ -334,6 +383,7 @@ int main(void)
         cmocka_unit_test(TestSpringback),           cmocka_unit_test(TestEnergy),
         cmocka_unit_test(TestStrongIsElastic),      cmocka_unit_test(TestPiecesKeepTheirShape),
         cmocka_unit_test(TestMaterialChanges),      cmocka_unit_test(TestAnyDirection),
+        cmocka_unit_test(TestAnyFrames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

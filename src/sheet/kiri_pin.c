@@ -398,6 +398,23 @@ static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, 
     return NULL;
 }
 
+/* Returns the share of the same pin whose frame is nearest to a new frame, or null: the material there is bent alike. */
+static const kiriPinShare* FindPinnedBeside(const kiriSheetData* sheet, const kiriPinShares* old,
+                                            const kiriPinShare* pinned)
+{
+    const kiriPinShare* found = NULL;
+    double least = HUGE_VAL;
+    kiriVec2 center = sheet->frames.data[pinned->share.frame].center;
+    KIRI_EACH(const kiriPinShare, share, *old) {
+        double far = kiriVec2_Distance(sheet->frames.data[share->share.frame].center, center);
+        if (share->pin == pinned->pin && far < least) {
+            found = share;
+            least = far;
+        }
+    }
+    return found;
+}
+
 void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
 {
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -428,9 +445,11 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
             pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;
         }
         memset(&pinned->plastic, 0, sizeof(pinned->plastic));
+        older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
         if (older != NULL && sheet->plastics.isKept) {
             double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
-            double before = ClampRowOf(sheet, older, &sheet->frames.data[frame], 0.0, 1.0).link.length;
+            const kiriFrameData* bent = &sheet->frames.data[older->share.frame];
+            double before = ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length;
             pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
         }
     }
