@@ -242,6 +242,7 @@ static void ReadMaterial(Fuzz* fuzz, kiriMaterial* material)
         material->flexDamping = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.01f);
         material->yieldStress = FuzzBytes_Float(&fuzz->bytes, 0.0f, 1e8f);
         material->hardening = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.9f);
+        material->slack = FuzzBytes_Below(&fuzz->bytes, 3) == 0 ? 0.97f : 0.0f;
         material->detail = FuzzBytes_Below(&fuzz->bytes, 4);
     }
 }

@@ -360,7 +360,7 @@ static void SheetDefFloats(void** state)
     } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },      { def.velocity, 3 },
                    { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 },  { &m->density, 1 },
                    { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { &m->yieldStress, 1 },
-                   { &m->hardening, 1 },     { points, 8 },            { &def.snapDistance, 1 },
+                   { &m->hardening, 1 },     { &m->slack, 1 },         { points, 8 },        { &def.snapDistance, 1 },
                    { &def.weldDistance, 1 }, { &def.rigidWeight, 1 },  { &def.rigidArea, 1 }, { r.positions, 18 } };
     for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
         kiriSheet made = 0;
@@ -373,6 +373,7 @@ static void SheetDefFloats(void** state)
                    { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
                    { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
                    { &m->flexDamping, -0.1f },   { &m->yieldStress, -1.0f },   { &m->hardening, 1.0f },
+                   { &m->slack, 1.0f },          { &m->slack, -0.1f },
                    { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
                    { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },
                    { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },

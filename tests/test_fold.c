@@ -11,7 +11,7 @@ static kiriSheetDef StiffDef(void)
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
-    def.material = (kiriMaterial){ 2e9f, 0.3f, 3e-4f, 800.0f, 6.0f, 1e-4f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ 2e9f, 0.3f, 3e-4f, 800.0f, 6.0f, 1e-4f, 0.0f, 0.0f, 0.0f, 0 };
     def.sleepSpeed = 0.0f;
     def.fadeTime = 0.0f;
     return def;

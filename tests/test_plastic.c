@@ -30,7 +30,7 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
         points[2 * i + 1] = (float)(v * Width);
     }
     def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-4f, (float)yieldStress,
-                                   (float)hardening, 0 };
+                                   (float)hardening, 0.0f, 0 };
     def.gridResolution = 80;
     def.frameCount = s->frames = frames;
     def.framePoints = points;
@@ -336,7 +336,7 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
         points[2 * i] = (float)(size * (i % SIDE + 0.5) / SIDE);
         points[2 * i + 1] = (float)(size * (i / SIDE + 0.5) / SIDE);
     }
-    def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-3f, (float)yieldStress, 0.0f, 0 };
+    def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-3f, (float)yieldStress, 0.0f, 0.0f, 0 };
     def.gridResolution = 48;
     def.frameCount = SIDE * SIDE;
     def.framePoints = points;

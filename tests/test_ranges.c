@@ -84,6 +84,7 @@ static const Field sheetFields[] = {
     { REAL(kiriSheetDef, material.flexDamping), { 0.0, 0.01, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { REAL(kiriSheetDef, material.yieldStress), { 0.0, 1e-30, 1e5, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { REAL(kiriSheetDef, material.hardening), { 0.0, 0.5, 0.9999999, END }, { -1e-6, 1.0, NAN, END } },
+    { REAL(kiriSheetDef, material.slack), { 0.0, 0.5, 0.9999999, END }, { -1e-6, 1.0, NAN, END } },
     { WHOLE(kiriSheetDef, material.detail), { 0, 1, 16, END }, { -1, 17, END } },
     { WHOLE(kiriSheetDef, gridResolution), { 1, 2, 3, 7, 24, 64, END }, { 0, 4097, -1, END } },
     { REAL(kiriSheetDef, snapDistance), { 0.0, FLT_MIN, 1e-3, 0.1, 2.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },

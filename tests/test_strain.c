@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
 
 /* ---- Links of frames that turn ---- */
 
@@ -120,6 +120,40 @@ static void TestHalfTurnHasNoWall(void** state)
             assert_true(isFold || fabs(strain[e]) < 1e-4);
         }
         AssertNear(strain[KIRI_FOLD], pi, 5e-3);
+    }
+}
+
+/* A link that is pressed keeps a part of its stiffness, without a kink where tension turns into compression. */
+static void TestSlackHasNoKink(void** state)
+{
+    uint32_t seed = 23;
+    const double eps = 1e-7, slack = 0.96, reach = 1e-3;
+    for (int trial = 0; trial < 100; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], ahead[KIRI_STRAINS], behind[KIRI_STRAINS];
+        kiriStrainRow rows[KIRI_STRAINS];
+        for (int k = 0; k < 2; ++k) {
+            couple.poses[k].x = kiriVec3_Make(couple.frames[k].center.x, couple.frames[k].center.y, 0.0);
+            couple.poses[k].A = kiriMat3_Cayley(kiriVec3_Make(0.0, 0.0, 0.0));
+        }
+        kiriVec3 along = kiriVec3_Make(couple.link.normal.x, couple.link.normal.y, 0.0), still = { 0 };
+        double way = trial == 0 ? -0.3 : RandomBetween(&seed, -3.0 * reach, 3.0 * reach);
+        couple.material.slack = (float)slack;
+        couple = Displaced(&couple, 1, kiriVec3_Scale(way, along), still);
+        Couple a = Displaced(&couple, 1, kiriVec3_Scale(eps, along), still);
+        Couple b = Displaced(&couple, 1, kiriVec3_Scale(-eps, along), still);
+        MeasureCouple(&couple, strain, rows);
+        MeasureCouple(&a, ahead, NULL);
+        MeasureCouple(&b, behind, NULL);
+        double slope = kiriVec3_Dot(rows[KIRI_STRETCH].end[1].move, along);
+        AssertNear((ahead[KIRI_STRETCH] - behind[KIRI_STRETCH]) / (2.0 * eps), slope, 2e-4);
+        if (trial == 0) {
+            AssertNear(strain[KIRI_STRETCH] / way, sqrt(1.0 - slack), 0.01);
+        }
+        couple.material.slack = 0.0f;
+        MeasureCouple(&couple, behind, NULL);
+        assert_true(way < 0.0 ? strain[KIRI_STRETCH] > behind[KIRI_STRETCH]
+                              : strain[KIRI_STRETCH] == behind[KIRI_STRETCH]);
     }
 }
 
@@ -325,7 +359,7 @@ static void TestForcesAreTheSlopeOfTheEnergy(void** state)
     static kiriStrainOffset offsets[2 * BODY_FRAMES];
     const double eps = 1e-6;
     uint32_t seed = 37;
-    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 });
+    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 });
     Make(&body, &def, 4, 3, 0.0, 1);
     for (int k = 0; k < body.system.linkCount; ++k) {
         for (int e = 0; e < KIRI_NORMAL_STOP; ++e) {
@@ -474,6 +508,7 @@ int main(void)
         cmocka_unit_test(TestFoldsAreSmooth),
         cmocka_unit_test(TestHalfTurnHasNoWall),
         cmocka_unit_test(TestEveryPoseIsSmooth),
+        cmocka_unit_test(TestSlackHasNoKink),
         cmocka_unit_test(TestFoldLinesAreSmooth),
         cmocka_unit_test(TestEnergies),
         cmocka_unit_test(TestForcesAreTheSlopeOfTheEnergy),

@@ -160,7 +160,7 @@ var namesStage = map[Stage]string{
 
 func (v Stage) String() string { return namesStage[v] }
 
-// Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.
+// Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual, sheets)
 type MaterialPreset int32
 
 const (
@@ -173,17 +173,27 @@ const (
 	// aluminium, 16 um
 	MaterialFoil MaterialPreset = 3
 	// paperboard, 0.4 mm
-	MaterialCard  MaterialPreset = 4
-	MaterialCount MaterialPreset = 5
+	MaterialCard     MaterialPreset = 4
+	MaterialSilk     MaterialPreset = 5
+	MaterialShirting MaterialPreset = 6
+	MaterialWool     MaterialPreset = 7
+	MaterialDenim    MaterialPreset = 8
+	MaterialJersey   MaterialPreset = 9
+	MaterialCount    MaterialPreset = 10
 )
 
 var namesMaterialPreset = map[MaterialPreset]string{
-	0: "KIRI_MATERIAL_PAPER",
-	1: "KIRI_MATERIAL_COTTON",
-	2: "KIRI_MATERIAL_RUBBER",
-	3: "KIRI_MATERIAL_FOIL",
-	4: "KIRI_MATERIAL_CARD",
-	5: "KIRI_MATERIAL_COUNT",
+	0:  "KIRI_MATERIAL_PAPER",
+	1:  "KIRI_MATERIAL_COTTON",
+	2:  "KIRI_MATERIAL_RUBBER",
+	3:  "KIRI_MATERIAL_FOIL",
+	4:  "KIRI_MATERIAL_CARD",
+	5:  "KIRI_MATERIAL_SILK",
+	6:  "KIRI_MATERIAL_SHIRTING",
+	7:  "KIRI_MATERIAL_WOOL",
+	8:  "KIRI_MATERIAL_DENIM",
+	9:  "KIRI_MATERIAL_JERSEY",
+	10: "KIRI_MATERIAL_COUNT",
 }
 
 func (v MaterialPreset) String() string { return namesMaterialPreset[v] }
@@ -467,12 +477,13 @@ type Material struct {
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
-	// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
-	// more; 0: elastic
+	// Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic
 	YieldStress float32
 	// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 	Hardening float32
-	// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0
+	// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
+	Slack float32
+	// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
 	Detail int32
 }
 

@@ -87,10 +87,11 @@ static const Field MATERIAL_FIELDS[] = {
     { "flex_damping", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, flexDamping), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "yield_stress", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, yieldStress), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "hardening", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, hardening), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "slack", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, slack), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "detail", TYPE_INT32, KIND_INT, (int)offsetof(kiriMaterial, detail), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 9, MATERIAL_FIELDS, NULL, NULL };
+static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 10, MATERIAL_FIELDS, NULL, NULL };
 
 static const Field QUALITY_FIELDS[] = {
     { "frames_along", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, framesAlong), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -2373,7 +2374,12 @@ const Constant CONSTANTS[] = {
     { "MaterialPreset", "MATERIAL_RUBBER", 2, 0 },
     { "MaterialPreset", "MATERIAL_FOIL", 3, 0 },
     { "MaterialPreset", "MATERIAL_CARD", 4, 0 },
-    { "MaterialPreset", "MATERIAL_COUNT", 5, 0 },
+    { "MaterialPreset", "MATERIAL_SILK", 5, 0 },
+    { "MaterialPreset", "MATERIAL_SHIRTING", 6, 0 },
+    { "MaterialPreset", "MATERIAL_WOOL", 7, 0 },
+    { "MaterialPreset", "MATERIAL_DENIM", 8, 0 },
+    { "MaterialPreset", "MATERIAL_JERSEY", 9, 0 },
+    { "MaterialPreset", "MATERIAL_COUNT", 10, 0 },
     { "QualityPreset", "QUALITY_FAST", 0, 0 },
     { "QualityPreset", "QUALITY_BALANCED", 1, 0 },
     { "QualityPreset", "QUALITY_ACCURATE", 2, 0 },

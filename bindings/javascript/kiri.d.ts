@@ -108,7 +108,7 @@ export enum Stage {
     Count = 9,
 }
 
-/** Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
+/** Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual, sheets) */
 export enum MaterialPreset {
     /** printing paper, 0.11 mm */
     Paper = 0,
@@ -120,7 +120,12 @@ export enum MaterialPreset {
     Foil = 3,
     /** paperboard, 0.4 mm */
     Card = 4,
-    Count = 5,
+    Silk = 5,
+    Shirting = 6,
+    Wool = 7,
+    Denim = 8,
+    Jersey = 9,
+    Count = 10,
 }
 
 export enum QualityPreset {
@@ -385,12 +390,13 @@ export class Material {
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
-    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
-     *  more; 0: elastic */
+    /** Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic */
     yieldStress: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening: number;
-    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
+    /** 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
+    slack: number;
+    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail: number;
 }
 /** What a host gives as Material: what is left out is 0. */
@@ -407,12 +413,13 @@ export interface MaterialGiven {
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
-    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
-     *  more; 0: elastic */
+    /** Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic */
     yieldStress?: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening?: number;
-    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
+    /** 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
+    slack?: number;
+    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail?: number;
 }
 

@@ -19,7 +19,8 @@ export const EventType = enumeration({ CutFinished: 1, PieceOff: 2, FrameAdded: 
     6, PieceDetached: 7, SeamBroke: 8 });
 export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Samples: 4, Constants: 5, Contact: 6, Solve:
     7, Skin: 8, Count: 9 });
-export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Count: 5 });
+export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Silk: 5, Shirting: 6,
+    Wool: 7, Denim: 8, Jersey: 9, Count: 10 });
 export const QualityPreset = enumeration({ Fast: 0, Balanced: 1, Accurate: 2, Count: 3 });
 export const Model = enumeration({ Links: 0, Affine: 1, Points: 2 });
 export const Skinning = enumeration({ Linear: 0, Smooth: 1 });
@@ -49,20 +50,20 @@ export const layouts = {
         samplesRefreshed: 84, solverIterations: 88, cellsChanged: 92, weightsChanged: 96, verticesChanged: 100,
         pointsChanged: 104, linksChanged: 108, commits: 112, systemsSolved: 116, contacts: 120, sheetPairs: 124,
         largestJump: 128, largestFade: 136 } },
-    kiriMaterial: { size: 36, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
-        flexDamping: 20, yieldStress: 24, hardening: 28, detail: 32 } },
+    kiriMaterial: { size: 40, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
+        flexDamping: 20, yieldStress: 24, hardening: 28, slack: 32, detail: 36 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 224, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
-        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 104, snapDistance: 108,
-        weldDistance: 112, frameCount: 116, frameLength: 120, accuracy: 124, framePoints: 128, maxFrames: 132,
-        rigidWeight: 136, rigidArea: 140, crumbArea: 144, friction: 148, contactThickness: 152, groups: 156,
-        touchesSheets: 160, selfContact: 164, collisionPoints: 168, iterations: 172, sleepSpeed: 176, model: 180,
-        skinning: 184, planar: 188, timeStepping: 192, fadeTime: 196, normals: 200, paper: 204 } },
-    kiriSheetSettings: { size: 92, fields: { cookie: 0, material: 4, maxFrames: 40, crumbArea: 44, friction: 48,
-        contactThickness: 52, groups: 56, touchesSheets: 60, selfContact: 64, iterations: 68, sleepSpeed: 72,
-        skinning: 76, timeStepping: 80, fadeTime: 84, normals: 88 } },
+    kiriSheetDef: { size: 228, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 108, snapDistance: 112,
+        weldDistance: 116, frameCount: 120, frameLength: 124, accuracy: 128, framePoints: 132, maxFrames: 136,
+        rigidWeight: 140, rigidArea: 144, crumbArea: 148, friction: 152, contactThickness: 156, groups: 160,
+        touchesSheets: 164, selfContact: 168, collisionPoints: 172, iterations: 176, sleepSpeed: 180, model: 184,
+        skinning: 188, planar: 192, timeStepping: 196, fadeTime: 200, normals: 204, paper: 208 } },
+    kiriSheetSettings: { size: 96, fields: { cookie: 0, material: 4, maxFrames: 44, crumbArea: 48, friction: 52,
+        contactThickness: 56, groups: 60, touchesSheets: 64, selfContact: 68, iterations: 72, sleepSpeed: 76,
+        skinning: 80, timeStepping: 84, fadeTime: 88, normals: 92 } },
     kiriFold: { size: 28, fields: { from: 0, to: 8, stiffness: 16, restAngle: 20, yieldMoment: 24 } },
     kiriFoldState: { size: 48, fields: { fold: 0, angle: 32, length: 40 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
@@ -343,6 +344,7 @@ export class Material {
     flexDamping = 0;
     yieldStress = 0;
     hardening = 0;
+    slack = 0;
     detail = 0;
 }
 
@@ -355,12 +357,13 @@ function readMaterial(o, at, world) {
     o.flexDamping = F32[(at + 20) >> 2];
     o.yieldStress = F32[(at + 24) >> 2];
     o.hardening = F32[(at + 28) >> 2];
-    o.detail = I32[(at + 32) >> 2];
+    o.slack = F32[(at + 32) >> 2];
+    o.detail = I32[(at + 36) >> 2];
     return o;
 }
 
 const fieldsOfMaterial = new Set(["youngsModulus", "poissonsRatio", "thickness", "density", "airDamping",
-    "flexDamping", "yieldStress", "hardening", "detail"]);
+    "flexDamping", "yieldStress", "hardening", "slack", "detail"]);
 
 function writeMaterial(o, at, world) {
     known(o, fieldsOfMaterial, "Material");
@@ -388,8 +391,11 @@ function writeMaterial(o, at, world) {
     if (o.hardening !== undefined) {
         F32[(at + 28) >> 2] = o.hardening;
     }
+    if (o.slack !== undefined) {
+        F32[(at + 32) >> 2] = o.slack;
+    }
     if (o.detail !== undefined) {
-        I32[(at + 32) >> 2] = o.detail;
+        I32[(at + 36) >> 2] = o.detail;
     }
 }
 
@@ -497,32 +503,32 @@ function readSheetDef(o, at, world) {
     fill(F32, (at + 44) >> 2, o.axisV);
     fill(F32, (at + 56) >> 2, o.velocity);
     readMaterial(o.material, at + 68, world);
-    o.gridResolution = I32[(at + 104) >> 2];
-    o.snapDistance = F32[(at + 108) >> 2];
-    o.weldDistance = F32[(at + 112) >> 2];
-    o.frameCount = I32[(at + 116) >> 2];
-    o.frameLength = F32[(at + 120) >> 2];
-    o.accuracy = F32[(at + 124) >> 2];
+    o.gridResolution = I32[(at + 108) >> 2];
+    o.snapDistance = F32[(at + 112) >> 2];
+    o.weldDistance = F32[(at + 116) >> 2];
+    o.frameCount = I32[(at + 120) >> 2];
+    o.frameLength = F32[(at + 124) >> 2];
+    o.accuracy = F32[(at + 128) >> 2];
     o.framePoints = null;
-    o.maxFrames = I32[(at + 132) >> 2];
-    o.rigidWeight = F32[(at + 136) >> 2];
-    o.rigidArea = F32[(at + 140) >> 2];
-    o.crumbArea = F32[(at + 144) >> 2];
-    o.friction = F32[(at + 148) >> 2];
-    o.contactThickness = F32[(at + 152) >> 2];
-    o.groups = U32[(at + 156) >> 2];
-    o.touchesSheets = I32[(at + 160) >> 2];
-    o.selfContact = I32[(at + 164) >> 2];
-    o.collisionPoints = I32[(at + 168) >> 2];
-    o.iterations = I32[(at + 172) >> 2];
-    o.sleepSpeed = F32[(at + 176) >> 2];
-    o.model = I32[(at + 180) >> 2];
-    o.skinning = I32[(at + 184) >> 2];
-    o.planar = I32[(at + 188) >> 2] !== 0;
-    o.timeStepping = I32[(at + 192) >> 2];
-    o.fadeTime = F32[(at + 196) >> 2];
-    o.normals = I32[(at + 200) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 204, world);
+    o.maxFrames = I32[(at + 136) >> 2];
+    o.rigidWeight = F32[(at + 140) >> 2];
+    o.rigidArea = F32[(at + 144) >> 2];
+    o.crumbArea = F32[(at + 148) >> 2];
+    o.friction = F32[(at + 152) >> 2];
+    o.contactThickness = F32[(at + 156) >> 2];
+    o.groups = U32[(at + 160) >> 2];
+    o.touchesSheets = I32[(at + 164) >> 2];
+    o.selfContact = I32[(at + 168) >> 2];
+    o.collisionPoints = I32[(at + 172) >> 2];
+    o.iterations = I32[(at + 176) >> 2];
+    o.sleepSpeed = F32[(at + 180) >> 2];
+    o.model = I32[(at + 184) >> 2];
+    o.skinning = I32[(at + 188) >> 2];
+    o.planar = I32[(at + 192) >> 2] !== 0;
+    o.timeStepping = I32[(at + 196) >> 2];
+    o.fadeTime = F32[(at + 200) >> 2];
+    o.normals = I32[(at + 204) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 208, world);
     return o;
 }
 
@@ -561,83 +567,83 @@ function writeSheetDef(o, at, world) {
         writeMaterial(o.material, at + 68, world);
     }
     if (o.gridResolution !== undefined) {
-        I32[(at + 104) >> 2] = o.gridResolution;
+        I32[(at + 108) >> 2] = o.gridResolution;
     }
     if (o.snapDistance !== undefined) {
-        F32[(at + 108) >> 2] = o.snapDistance;
+        F32[(at + 112) >> 2] = o.snapDistance;
     }
     if (o.weldDistance !== undefined) {
-        F32[(at + 112) >> 2] = o.weldDistance;
+        F32[(at + 116) >> 2] = o.weldDistance;
     }
     if (o.frameCount !== undefined) {
-        I32[(at + 116) >> 2] = o.frameCount;
+        I32[(at + 120) >> 2] = o.frameCount;
     }
     if (o.frameLength !== undefined) {
-        F32[(at + 120) >> 2] = o.frameLength;
+        F32[(at + 124) >> 2] = o.frameLength;
     }
     if (o.accuracy !== undefined) {
-        F32[(at + 124) >> 2] = o.accuracy;
+        F32[(at + 128) >> 2] = o.accuracy;
     }
     if (o.framePoints != null) {
-        U32[(at + 128) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
-        I32[(at + 116) >> 2] = o.framePoints.length / 2;
+        U32[(at + 132) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
+        I32[(at + 120) >> 2] = o.framePoints.length / 2;
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 132) >> 2] = o.maxFrames;
+        I32[(at + 136) >> 2] = o.maxFrames;
     }
     if (o.rigidWeight !== undefined) {
-        F32[(at + 136) >> 2] = o.rigidWeight;
+        F32[(at + 140) >> 2] = o.rigidWeight;
     }
     if (o.rigidArea !== undefined) {
-        F32[(at + 140) >> 2] = o.rigidArea;
+        F32[(at + 144) >> 2] = o.rigidArea;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 144) >> 2] = o.crumbArea;
+        F32[(at + 148) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 148) >> 2] = o.friction;
+        F32[(at + 152) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 152) >> 2] = o.contactThickness;
+        F32[(at + 156) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 156) >> 2] = o.groups;
+        U32[(at + 160) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 160) >> 2] = o.touchesSheets;
+        I32[(at + 164) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 164) >> 2] = o.selfContact;
+        I32[(at + 168) >> 2] = o.selfContact;
     }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 168) >> 2] = o.collisionPoints;
+        I32[(at + 172) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 172) >> 2] = o.iterations;
+        I32[(at + 176) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 176) >> 2] = o.sleepSpeed;
+        F32[(at + 180) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 180) >> 2] = o.model;
+        I32[(at + 184) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 184) >> 2] = o.skinning;
+        I32[(at + 188) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 188) >> 2] = o.planar;
+        I32[(at + 192) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 192) >> 2] = o.timeStepping;
+        I32[(at + 196) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 196) >> 2] = o.fadeTime;
+        F32[(at + 200) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 200) >> 2] = o.normals;
+        I32[(at + 204) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 204, world);
+        writePaperOptions(o.paper, at + 208, world);
     }
 }
 
@@ -662,19 +668,19 @@ export class SheetSettings {
 function readSheetSettings(o, at, world) {
     o.cookie = U32[(at) >> 2];
     readMaterial(o.material, at + 4, world);
-    o.maxFrames = I32[(at + 40) >> 2];
-    o.crumbArea = F32[(at + 44) >> 2];
-    o.friction = F32[(at + 48) >> 2];
-    o.contactThickness = F32[(at + 52) >> 2];
-    o.groups = U32[(at + 56) >> 2];
-    o.touchesSheets = I32[(at + 60) >> 2];
-    o.selfContact = I32[(at + 64) >> 2];
-    o.iterations = I32[(at + 68) >> 2];
-    o.sleepSpeed = F32[(at + 72) >> 2];
-    o.skinning = I32[(at + 76) >> 2];
-    o.timeStepping = I32[(at + 80) >> 2];
-    o.fadeTime = F32[(at + 84) >> 2];
-    o.normals = I32[(at + 88) >> 2] !== 0;
+    o.maxFrames = I32[(at + 44) >> 2];
+    o.crumbArea = F32[(at + 48) >> 2];
+    o.friction = F32[(at + 52) >> 2];
+    o.contactThickness = F32[(at + 56) >> 2];
+    o.groups = U32[(at + 60) >> 2];
+    o.touchesSheets = I32[(at + 64) >> 2];
+    o.selfContact = I32[(at + 68) >> 2];
+    o.iterations = I32[(at + 72) >> 2];
+    o.sleepSpeed = F32[(at + 76) >> 2];
+    o.skinning = I32[(at + 80) >> 2];
+    o.timeStepping = I32[(at + 84) >> 2];
+    o.fadeTime = F32[(at + 88) >> 2];
+    o.normals = I32[(at + 92) >> 2] !== 0;
     return o;
 }
 
@@ -691,43 +697,43 @@ function writeSheetSettings(o, at, world) {
         writeMaterial(o.material, at + 4, world);
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 40) >> 2] = o.maxFrames;
+        I32[(at + 44) >> 2] = o.maxFrames;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 44) >> 2] = o.crumbArea;
+        F32[(at + 48) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 48) >> 2] = o.friction;
+        F32[(at + 52) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 52) >> 2] = o.contactThickness;
+        F32[(at + 56) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 56) >> 2] = o.groups;
+        U32[(at + 60) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 60) >> 2] = o.touchesSheets;
+        I32[(at + 64) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 64) >> 2] = o.selfContact;
+        I32[(at + 68) >> 2] = o.selfContact;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 68) >> 2] = o.iterations;
+        I32[(at + 72) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 72) >> 2] = o.sleepSpeed;
+        F32[(at + 76) >> 2] = o.sleepSpeed;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 76) >> 2] = o.skinning;
+        I32[(at + 80) >> 2] = o.skinning;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 80) >> 2] = o.timeStepping;
+        I32[(at + 84) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 84) >> 2] = o.fadeTime;
+        F32[(at + 88) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 88) >> 2] = o.normals;
+        I32[(at + 92) >> 2] = o.normals;
     }
 }
 
@@ -1765,11 +1771,11 @@ export class World extends WorldBase {
         try {
             wasm.kiriDefaultSheetDef(scratch);
             writeSheetDef(def, scratch, this);
-            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 224);
+            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 232);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
             release();
         }
@@ -1782,11 +1788,11 @@ export class World extends WorldBase {
                 wasm.kiriDefaultSheetDef(scratch);
                 writeSheetDef(def, scratch, this);
             }
-            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 224);
+            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 232);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateRectangle");
             }
-            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
             release();
         }
@@ -1802,11 +1808,11 @@ export class World extends WorldBase {
             for (let i = 0; i < folds.length; i++) {
                 writeFold(folds[i], $folds + 28 * i, this);
             }
-            const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 224);
+            const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 232);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateFoldedSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
             release();
         }
@@ -1948,7 +1954,7 @@ export class Sheet extends Thing {
 
     setSettings(settings) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 92);
+        U8.fill(0, scratch, scratch + 96);
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {

@@ -81,7 +81,7 @@ struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiri
 struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
 struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; kiriSeam seam; int32_t stitches; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
-struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; int32_t detail; };
+struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
@@ -277,8 +277,13 @@ kiri.MATERIAL_COTTON = 1
 kiri.MATERIAL_RUBBER = 2
 kiri.MATERIAL_FOIL = 3
 kiri.MATERIAL_CARD = 4
-kiri.MATERIAL_COUNT = 5
-kiri.MaterialPreset = {[0] = "PAPER", [1] = "COTTON", [2] = "RUBBER", [3] = "FOIL", [4] = "CARD", [5] = "COUNT"}
+kiri.MATERIAL_SILK = 5
+kiri.MATERIAL_SHIRTING = 6
+kiri.MATERIAL_WOOL = 7
+kiri.MATERIAL_DENIM = 8
+kiri.MATERIAL_JERSEY = 9
+kiri.MATERIAL_COUNT = 10
+kiri.MaterialPreset = {[0] = "PAPER", [1] = "COTTON", [2] = "RUBBER", [3] = "FOIL", [4] = "CARD", [5] = "SILK", [6] = "SHIRTING", [7] = "WOOL", [8] = "DENIM", [9] = "JERSEY", [10] = "COUNT"}
 kiri.QUALITY_FAST = 0
 kiri.QUALITY_BALANCED = 1
 kiri.QUALITY_ACCURATE = 2
@@ -637,7 +642,7 @@ structs.kiriWorldDef = {fields = {cookie = "number", gravity = 3, budget = "kiri
 structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number"}}
 structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number", seam = "id", stitches = "number"}}
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
-structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number", yieldStress = "number", hardening = "number", detail = "number"}}
+structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number", yieldStress = "number", hardening = "number", slack = "number", detail = "number"}}
 structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
 structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
 structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", weldDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}

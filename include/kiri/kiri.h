@@ -279,19 +279,20 @@ typedef struct kiriMaterial {
     float density;       /* kg/m^3, above 0 */
     float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
-    /* Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). */
-    float yieldStress; /* Pa, 0 or more; 0: elastic */
+    float yieldStress; /* Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
-    int32_t detail;    /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
+    float slack;    /* 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
+    int32_t detail; /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
 } kiriMaterial;
 
-/* Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
+/* Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual, sheets) */
 enum kiriMaterialPreset {
     KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
     KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
     KIRI_MATERIAL_RUBBER, /* natural rubber, 1 mm */
     KIRI_MATERIAL_FOIL,   /* aluminium, 16 um */
     KIRI_MATERIAL_CARD,   /* paperboard, 0.4 mm */
+    KIRI_MATERIAL_SILK, KIRI_MATERIAL_SHIRTING, KIRI_MATERIAL_WOOL, KIRI_MATERIAL_DENIM, KIRI_MATERIAL_JERSEY,
     KIRI_MATERIAL_COUNT
 };
 

@@ -7,6 +7,7 @@
    leaves no gap at m. */
 #define OFFSET_SHARE 0.4
 #define BUMP 1e-3        /* see BumpOf; by length */
+#define SLACK_REACH 1e-3 /* by length: compression at which half of the slack counts */
 #define OFFSET_FOLD 0.12 /* 1 - cos of half the fold at which offsets at m and at b count equally */
 /* Square of the angle at which the arc between two sites counts half. */
 #define ARC_FOLD 2.5
@@ -527,6 +528,14 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     kiriCurl curl = kiriCurl_Of(link, material, link->outer);
     if (link->outer >= link->width) { /* open at both ends */
         TakeRibbon(link, &axes, (double)material->poissonsRatio, &curl, strain, rows);
+    }
+    if (material->slack > 0.0f && strain[KIRI_STRETCH] < 0.0) {
+        double keep = sqrt(1.0 - (double)material->slack), reach = SLACK_REACH * link->length;
+        double share = reach / (reach - strain[KIRI_STRETCH]);
+        strain[KIRI_STRETCH] *= keep + (1.0 - keep) * share;
+        if (rows != NULL) {
+            ScaleRow(&rows[KIRI_STRETCH], keep + (1.0 - keep) * share * share);
+        }
     }
     double bending = strain[KIRI_BENDING];
     kiriStrainRow byBending;

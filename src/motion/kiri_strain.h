@@ -62,6 +62,9 @@ KIRI_C_BEGIN
    gap(b) . n everywhere, and it has no kink in which a motion could get stuck. If g < c, Y has 1/2 (1 - g / c) e gap(m) . d
    more, e up to a thousandth of l and of either sign, so a flat sheet that is pressed leaves its plane.
 
+   A slack material (kiriMaterial.slack) loses stiffness where stretch is below zero: there the strain shrinks, by the
+   square root of the remaining part of the stiffness. Strain and slope are continuous.
+
    The stop limits the normal gap of sheets that bend within less than l. Nothing else bounds it. */
 #define KIRI_NORMAL_GAP_BETA 12.0 /* for a strip that is clamped at both ends */
 #define KIRI_NORMAL_STOP_SHARE 0.5

@@ -273,6 +273,7 @@ static const kiriValue materialMembers[] = {
     FLOATS_IN(flexDamping, FROM_0),
     FLOATS_IN(yieldStress, FROM_0),
     FLOATS_IN(hardening, WITHIN(0.0, 0.99999994)), /* the last float below 1 */
+    FLOATS_IN(slack, WITHIN(0.0, 0.99999994)),
     INTS_IN(detail, WITHIN(0, KIRI_MOST_DETAIL)),
 };
 #undef OF

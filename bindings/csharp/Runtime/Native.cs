@@ -410,7 +410,8 @@ namespace Kiri
         Count = 9,
     }
 
-    /// <summary>Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.</summary>
+    /// <summary>Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual,
+    /// sheets)</summary>
     public enum MaterialPreset
     {
         /// <summary>printing paper, 0.11 mm</summary>
@@ -423,7 +424,12 @@ namespace Kiri
         Foil = 3,
         /// <summary>paperboard, 0.4 mm</summary>
         Card = 4,
-        Count = 5,
+        Silk = 5,
+        Shirting = 6,
+        Wool = 7,
+        Denim = 8,
+        Jersey = 9,
+        Count = 10,
     }
 
     public enum QualityPreset
@@ -679,12 +685,13 @@ namespace Kiri
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
-        /// <summary>Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0
-        /// or more; 0: elastic</summary>
+        /// <summary>Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic</summary>
         public float YieldStress;
         /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
         public float Hardening;
-        /// <summary>sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0</summary>
+        /// <summary>0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)</summary>
+        public float Slack;
+        /// <summary>sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0</summary>
         public int Detail;
     }
 

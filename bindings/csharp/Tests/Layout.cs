@@ -142,7 +142,7 @@ namespace Kiri.Tests
         {
             Material s;
             byte* at = (byte*)&s;
-            Is("Material", sizeof(Material), 36);
+            Is("Material", sizeof(Material), 40);
             Is("Material.YoungsModulus", (byte*)&s.YoungsModulus - at, 0);
             Is("Material.PoissonsRatio", (byte*)&s.PoissonsRatio - at, 4);
             Is("Material.Thickness", (byte*)&s.Thickness - at, 8);
@@ -151,7 +151,8 @@ namespace Kiri.Tests
             Is("Material.FlexDamping", (byte*)&s.FlexDamping - at, 20);
             Is("Material.YieldStress", (byte*)&s.YieldStress - at, 24);
             Is("Material.Hardening", (byte*)&s.Hardening - at, 28);
-            Is("Material.Detail", (byte*)&s.Detail - at, 32);
+            Is("Material.Slack", (byte*)&s.Slack - at, 32);
+            Is("Material.Detail", (byte*)&s.Detail - at, 36);
         }
 
         static void Quality()
@@ -181,7 +182,7 @@ namespace Kiri.Tests
         {
             SheetDef s;
             byte* at = (byte*)&s;
-            Is("SheetDef", sizeof(SheetDef), 248);
+            Is("SheetDef", sizeof(SheetDef), 256);
             Is("SheetDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetDef.restPositions", (byte*)&s.restPositions - at, 8);
             Is("SheetDef.vertexCount", (byte*)&s.vertexCount - at, 16);
@@ -192,54 +193,54 @@ namespace Kiri.Tests
             Is("SheetDef.AxisV", (byte*)&s.AxisV - at, 60);
             Is("SheetDef.Velocity", (byte*)&s.Velocity - at, 72);
             Is("SheetDef.Material", (byte*)&s.Material - at, 84);
-            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 120);
-            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 124);
-            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 128);
-            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 132);
-            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 136);
-            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 140);
-            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 144);
-            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 152);
-            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 156);
-            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 160);
-            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 164);
-            Is("SheetDef.Friction", (byte*)&s.Friction - at, 168);
-            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 172);
-            Is("SheetDef.Groups", (byte*)&s.Groups - at, 176);
-            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 180);
-            Is("SheetDef.SelfContact", (byte*)&s.SelfContact - at, 184);
-            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 188);
-            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 192);
-            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 196);
-            Is("SheetDef.Model", (byte*)&s.Model - at, 200);
-            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 204);
-            Is("SheetDef.Planar", (byte*)&s.Planar - at, 208);
-            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 212);
-            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 216);
-            Is("SheetDef.Normals", (byte*)&s.Normals - at, 220);
-            Is("SheetDef.Paper", (byte*)&s.Paper - at, 224);
+            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 124);
+            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 128);
+            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 132);
+            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 136);
+            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 140);
+            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 144);
+            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 152);
+            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 160);
+            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 164);
+            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 168);
+            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 172);
+            Is("SheetDef.Friction", (byte*)&s.Friction - at, 176);
+            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 180);
+            Is("SheetDef.Groups", (byte*)&s.Groups - at, 184);
+            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 188);
+            Is("SheetDef.SelfContact", (byte*)&s.SelfContact - at, 192);
+            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 196);
+            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 200);
+            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 204);
+            Is("SheetDef.Model", (byte*)&s.Model - at, 208);
+            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 212);
+            Is("SheetDef.Planar", (byte*)&s.Planar - at, 216);
+            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 220);
+            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 224);
+            Is("SheetDef.Normals", (byte*)&s.Normals - at, 228);
+            Is("SheetDef.Paper", (byte*)&s.Paper - at, 232);
         }
 
         static void SheetSettings()
         {
             SheetSettings s;
             byte* at = (byte*)&s;
-            Is("SheetSettings", sizeof(SheetSettings), 92);
+            Is("SheetSettings", sizeof(SheetSettings), 96);
             Is("SheetSettings.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetSettings.Material", (byte*)&s.Material - at, 4);
-            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 40);
-            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 44);
-            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 48);
-            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 52);
-            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 56);
-            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 60);
-            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 64);
-            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 68);
-            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 72);
-            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 76);
-            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 80);
-            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 84);
-            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 88);
+            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 44);
+            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 48);
+            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 52);
+            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 56);
+            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 60);
+            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 64);
+            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 68);
+            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 72);
+            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 76);
+            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 80);
+            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 84);
+            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 88);
+            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 92);
         }
 
         static void Fold()

@@ -42,7 +42,12 @@ kiri.MATERIAL_COTTON = 1
 kiri.MATERIAL_RUBBER = 2
 kiri.MATERIAL_FOIL = 3
 kiri.MATERIAL_CARD = 4
-kiri.MATERIAL_COUNT = 5
+kiri.MATERIAL_SILK = 5
+kiri.MATERIAL_SHIRTING = 6
+kiri.MATERIAL_WOOL = 7
+kiri.MATERIAL_DENIM = 8
+kiri.MATERIAL_JERSEY = 9
+kiri.MATERIAL_COUNT = 10
 kiri.QUALITY_FAST = 0
 kiri.QUALITY_BALANCED = 1
 kiri.QUALITY_ACCURATE = 2
@@ -152,9 +157,10 @@ kiri.DRAW_ALL = 2047
 ---@field density? number # kg/m^3, above 0
 ---@field airDamping? number # 1/s, 0 or more: velocities fade as exp(-airDamping t)
 ---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
----@field yieldStress? number # Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or more; 0: elastic
+---@field yieldStress? number # Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
----@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0
+---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
+---@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
 
 --- Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
 --- BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual

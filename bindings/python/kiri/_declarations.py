@@ -306,7 +306,12 @@ CONSTANTS = {'KIRI_OK': 0,
  'KIRI_MATERIAL_RUBBER': 2,
  'KIRI_MATERIAL_FOIL': 3,
  'KIRI_MATERIAL_CARD': 4,
- 'KIRI_MATERIAL_COUNT': 5,
+ 'KIRI_MATERIAL_SILK': 5,
+ 'KIRI_MATERIAL_SHIRTING': 6,
+ 'KIRI_MATERIAL_WOOL': 7,
+ 'KIRI_MATERIAL_DENIM': 8,
+ 'KIRI_MATERIAL_JERSEY': 9,
+ 'KIRI_MATERIAL_COUNT': 10,
  'KIRI_QUALITY_FAST': 0,
  'KIRI_QUALITY_BALANCED': 1,
  'KIRI_QUALITY_ACCURATE': 2,
@@ -355,7 +360,7 @@ enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1048576 };
 enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI_EVENT_FRAME_ADDED = 3, KIRI_EVENT_DIVERGED = 4, KIRI_EVENT_DEFERRED = 5, KIRI_EVENT_PIN_BROKE = 6, KIRI_EVENT_PIECE_DETACHED = 7, KIRI_EVENT_SEAM_BROKE = 8 };
 enum kiriStage { KIRI_STAGE_CUT = 0, KIRI_STAGE_GRID = 1, KIRI_STAGE_REGIONS = 2, KIRI_STAGE_SHAPE = 3, KIRI_STAGE_SAMPLES = 4, KIRI_STAGE_CONSTANTS = 5, KIRI_STAGE_CONTACT = 6, KIRI_STAGE_SOLVE = 7, KIRI_STAGE_SKIN = 8, KIRI_STAGE_COUNT = 9 };
-enum kiriMaterialPreset { KIRI_MATERIAL_PAPER = 0, KIRI_MATERIAL_COTTON = 1, KIRI_MATERIAL_RUBBER = 2, KIRI_MATERIAL_FOIL = 3, KIRI_MATERIAL_CARD = 4, KIRI_MATERIAL_COUNT = 5 };
+enum kiriMaterialPreset { KIRI_MATERIAL_PAPER = 0, KIRI_MATERIAL_COTTON = 1, KIRI_MATERIAL_RUBBER = 2, KIRI_MATERIAL_FOIL = 3, KIRI_MATERIAL_CARD = 4, KIRI_MATERIAL_SILK = 5, KIRI_MATERIAL_SHIRTING = 6, KIRI_MATERIAL_WOOL = 7, KIRI_MATERIAL_DENIM = 8, KIRI_MATERIAL_JERSEY = 9, KIRI_MATERIAL_COUNT = 10 };
 enum kiriQualityPreset { KIRI_QUALITY_FAST = 0, KIRI_QUALITY_BALANCED = 1, KIRI_QUALITY_ACCURATE = 2, KIRI_QUALITY_COUNT = 3 };
 enum kiriModel { KIRI_MODEL_LINKS = 0, KIRI_MODEL_AFFINE = 1, KIRI_MODEL_POINTS = 2 };
 enum kiriSkinning { KIRI_SKINNING_LINEAR = 0, KIRI_SKINNING_SMOOTH = 1 };
@@ -411,7 +416,7 @@ struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiri
 struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
 struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; kiriSeam seam; int32_t stitches; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
-struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; int32_t detail; };
+struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };

@@ -54,13 +54,19 @@ class Stage(_enum.IntEnum):
 
 
 class MaterialPreset(_enum.IntEnum):
-    """Materials to start from; src/world/kiri_api_world.c names the sources of their numbers."""
+    """Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths
+    (manual, sheets)"""
     PAPER = 0
     COTTON = 1
     RUBBER = 2
     FOIL = 3
     CARD = 4
-    COUNT = 5
+    SILK = 5
+    SHIRTING = 6
+    WOOL = 7
+    DENIM = 8
+    JERSEY = 9
+    COUNT = 10
 
 
 class QualityPreset(_enum.IntEnum):
@@ -162,6 +168,11 @@ KIRI_MATERIAL_COTTON = MaterialPreset.COTTON
 KIRI_MATERIAL_RUBBER = MaterialPreset.RUBBER
 KIRI_MATERIAL_FOIL = MaterialPreset.FOIL
 KIRI_MATERIAL_CARD = MaterialPreset.CARD
+KIRI_MATERIAL_SILK = MaterialPreset.SILK
+KIRI_MATERIAL_SHIRTING = MaterialPreset.SHIRTING
+KIRI_MATERIAL_WOOL = MaterialPreset.WOOL
+KIRI_MATERIAL_DENIM = MaterialPreset.DENIM
+KIRI_MATERIAL_JERSEY = MaterialPreset.JERSEY
 KIRI_MATERIAL_COUNT = MaterialPreset.COUNT
 KIRI_QUALITY_FAST = QualityPreset.FAST
 KIRI_QUALITY_BALANCED = QualityPreset.BALANCED

@@ -97,7 +97,12 @@ pub const KIRI_MATERIAL_RUBBER: i32 = 2;
 pub const KIRI_MATERIAL_FOIL: i32 = 3;
 /// paperboard, 0.4 mm
 pub const KIRI_MATERIAL_CARD: i32 = 4;
-pub const KIRI_MATERIAL_COUNT: i32 = 5;
+pub const KIRI_MATERIAL_SILK: i32 = 5;
+pub const KIRI_MATERIAL_SHIRTING: i32 = 6;
+pub const KIRI_MATERIAL_WOOL: i32 = 7;
+pub const KIRI_MATERIAL_DENIM: i32 = 8;
+pub const KIRI_MATERIAL_JERSEY: i32 = 9;
+pub const KIRI_MATERIAL_COUNT: i32 = 10;
 
 pub const KIRI_QUALITY_FAST: i32 = 0;
 pub const KIRI_QUALITY_BALANCED: i32 = 1;
@@ -362,12 +367,13 @@ pub struct kiriMaterial {
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
-    /// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays
-    /// (KIRI_MODEL_LINKS only). Pa, 0 or more; 0: elastic
+    /// Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic
     pub yieldStress: f32,
     /// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
     pub hardening: f32,
-    /// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0
+    /// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
+    pub slack: f32,
+    /// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
     pub detail: i32,
 }
 
@@ -1488,7 +1494,7 @@ const _: () = {
     assert!(offset_of!(kiriProfile, sheetPairs) == 124);
     assert!(offset_of!(kiriProfile, largestJump) == 128);
     assert!(offset_of!(kiriProfile, largestFade) == 136);
-    assert!(size_of::<kiriMaterial>() == 36);
+    assert!(size_of::<kiriMaterial>() == 40);
     assert!(align_of::<kiriMaterial>() == 4);
     assert!(offset_of!(kiriMaterial, youngsModulus) == 0);
     assert!(offset_of!(kiriMaterial, poissonsRatio) == 4);
@@ -1498,7 +1504,8 @@ const _: () = {
     assert!(offset_of!(kiriMaterial, flexDamping) == 20);
     assert!(offset_of!(kiriMaterial, yieldStress) == 24);
     assert!(offset_of!(kiriMaterial, hardening) == 28);
-    assert!(offset_of!(kiriMaterial, detail) == 32);
+    assert!(offset_of!(kiriMaterial, slack) == 32);
+    assert!(offset_of!(kiriMaterial, detail) == 36);
     assert!(size_of::<kiriQuality>() == 16);
     assert!(align_of::<kiriQuality>() == 4);
     assert!(offset_of!(kiriQuality, framesAlong) == 0);
@@ -1512,7 +1519,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 248);
+    assert!(size_of::<kiriSheetDef>() == 256);
     assert!(align_of::<kiriSheetDef>() == 8);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 8);
@@ -1524,49 +1531,49 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, axisV) == 60);
     assert!(offset_of!(kiriSheetDef, velocity) == 72);
     assert!(offset_of!(kiriSheetDef, material) == 84);
-    assert!(offset_of!(kiriSheetDef, gridResolution) == 120);
-    assert!(offset_of!(kiriSheetDef, snapDistance) == 124);
-    assert!(offset_of!(kiriSheetDef, weldDistance) == 128);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 132);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 136);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 140);
-    assert!(offset_of!(kiriSheetDef, framePoints) == 144);
-    assert!(offset_of!(kiriSheetDef, maxFrames) == 152);
-    assert!(offset_of!(kiriSheetDef, rigidWeight) == 156);
-    assert!(offset_of!(kiriSheetDef, rigidArea) == 160);
-    assert!(offset_of!(kiriSheetDef, crumbArea) == 164);
-    assert!(offset_of!(kiriSheetDef, friction) == 168);
-    assert!(offset_of!(kiriSheetDef, contactThickness) == 172);
-    assert!(offset_of!(kiriSheetDef, groups) == 176);
-    assert!(offset_of!(kiriSheetDef, touchesSheets) == 180);
-    assert!(offset_of!(kiriSheetDef, selfContact) == 184);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 188);
-    assert!(offset_of!(kiriSheetDef, iterations) == 192);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 196);
-    assert!(offset_of!(kiriSheetDef, model) == 200);
-    assert!(offset_of!(kiriSheetDef, skinning) == 204);
-    assert!(offset_of!(kiriSheetDef, planar) == 208);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 212);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 216);
-    assert!(offset_of!(kiriSheetDef, normals) == 220);
-    assert!(offset_of!(kiriSheetDef, paper) == 224);
-    assert!(size_of::<kiriSheetSettings>() == 92);
+    assert!(offset_of!(kiriSheetDef, gridResolution) == 124);
+    assert!(offset_of!(kiriSheetDef, snapDistance) == 128);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 132);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 136);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 140);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 144);
+    assert!(offset_of!(kiriSheetDef, framePoints) == 152);
+    assert!(offset_of!(kiriSheetDef, maxFrames) == 160);
+    assert!(offset_of!(kiriSheetDef, rigidWeight) == 164);
+    assert!(offset_of!(kiriSheetDef, rigidArea) == 168);
+    assert!(offset_of!(kiriSheetDef, crumbArea) == 172);
+    assert!(offset_of!(kiriSheetDef, friction) == 176);
+    assert!(offset_of!(kiriSheetDef, contactThickness) == 180);
+    assert!(offset_of!(kiriSheetDef, groups) == 184);
+    assert!(offset_of!(kiriSheetDef, touchesSheets) == 188);
+    assert!(offset_of!(kiriSheetDef, selfContact) == 192);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 196);
+    assert!(offset_of!(kiriSheetDef, iterations) == 200);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 204);
+    assert!(offset_of!(kiriSheetDef, model) == 208);
+    assert!(offset_of!(kiriSheetDef, skinning) == 212);
+    assert!(offset_of!(kiriSheetDef, planar) == 216);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 220);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 224);
+    assert!(offset_of!(kiriSheetDef, normals) == 228);
+    assert!(offset_of!(kiriSheetDef, paper) == 232);
+    assert!(size_of::<kiriSheetSettings>() == 96);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
-    assert!(offset_of!(kiriSheetSettings, maxFrames) == 40);
-    assert!(offset_of!(kiriSheetSettings, crumbArea) == 44);
-    assert!(offset_of!(kiriSheetSettings, friction) == 48);
-    assert!(offset_of!(kiriSheetSettings, contactThickness) == 52);
-    assert!(offset_of!(kiriSheetSettings, groups) == 56);
-    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 60);
-    assert!(offset_of!(kiriSheetSettings, selfContact) == 64);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 68);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 72);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 76);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
-    assert!(offset_of!(kiriSheetSettings, normals) == 88);
+    assert!(offset_of!(kiriSheetSettings, maxFrames) == 44);
+    assert!(offset_of!(kiriSheetSettings, crumbArea) == 48);
+    assert!(offset_of!(kiriSheetSettings, friction) == 52);
+    assert!(offset_of!(kiriSheetSettings, contactThickness) == 56);
+    assert!(offset_of!(kiriSheetSettings, groups) == 60);
+    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 64);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 68);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 72);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 76);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 80);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 84);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 88);
+    assert!(offset_of!(kiriSheetSettings, normals) == 92);
     assert!(size_of::<kiriFold>() == 28);
     assert!(align_of::<kiriFold>() == 4);
     assert!(offset_of!(kiriFold, from) == 0);
@@ -1850,7 +1857,7 @@ const _: () = {
     assert!(offset_of!(kiriProfile, sheetPairs) == 124);
     assert!(offset_of!(kiriProfile, largestJump) == 128);
     assert!(offset_of!(kiriProfile, largestFade) == 136);
-    assert!(size_of::<kiriMaterial>() == 36);
+    assert!(size_of::<kiriMaterial>() == 40);
     assert!(align_of::<kiriMaterial>() == 4);
     assert!(offset_of!(kiriMaterial, youngsModulus) == 0);
     assert!(offset_of!(kiriMaterial, poissonsRatio) == 4);
@@ -1860,7 +1867,8 @@ const _: () = {
     assert!(offset_of!(kiriMaterial, flexDamping) == 20);
     assert!(offset_of!(kiriMaterial, yieldStress) == 24);
     assert!(offset_of!(kiriMaterial, hardening) == 28);
-    assert!(offset_of!(kiriMaterial, detail) == 32);
+    assert!(offset_of!(kiriMaterial, slack) == 32);
+    assert!(offset_of!(kiriMaterial, detail) == 36);
     assert!(size_of::<kiriQuality>() == 16);
     assert!(align_of::<kiriQuality>() == 4);
     assert!(offset_of!(kiriQuality, framesAlong) == 0);
@@ -1874,7 +1882,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 224);
+    assert!(size_of::<kiriSheetDef>() == 228);
     assert!(align_of::<kiriSheetDef>() == 4);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 4);
@@ -1886,49 +1894,49 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, axisV) == 44);
     assert!(offset_of!(kiriSheetDef, velocity) == 56);
     assert!(offset_of!(kiriSheetDef, material) == 68);
-    assert!(offset_of!(kiriSheetDef, gridResolution) == 104);
-    assert!(offset_of!(kiriSheetDef, snapDistance) == 108);
-    assert!(offset_of!(kiriSheetDef, weldDistance) == 112);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 116);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 120);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 124);
-    assert!(offset_of!(kiriSheetDef, framePoints) == 128);
-    assert!(offset_of!(kiriSheetDef, maxFrames) == 132);
-    assert!(offset_of!(kiriSheetDef, rigidWeight) == 136);
-    assert!(offset_of!(kiriSheetDef, rigidArea) == 140);
-    assert!(offset_of!(kiriSheetDef, crumbArea) == 144);
-    assert!(offset_of!(kiriSheetDef, friction) == 148);
-    assert!(offset_of!(kiriSheetDef, contactThickness) == 152);
-    assert!(offset_of!(kiriSheetDef, groups) == 156);
-    assert!(offset_of!(kiriSheetDef, touchesSheets) == 160);
-    assert!(offset_of!(kiriSheetDef, selfContact) == 164);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 168);
-    assert!(offset_of!(kiriSheetDef, iterations) == 172);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 176);
-    assert!(offset_of!(kiriSheetDef, model) == 180);
-    assert!(offset_of!(kiriSheetDef, skinning) == 184);
-    assert!(offset_of!(kiriSheetDef, planar) == 188);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 192);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 196);
-    assert!(offset_of!(kiriSheetDef, normals) == 200);
-    assert!(offset_of!(kiriSheetDef, paper) == 204);
-    assert!(size_of::<kiriSheetSettings>() == 92);
+    assert!(offset_of!(kiriSheetDef, gridResolution) == 108);
+    assert!(offset_of!(kiriSheetDef, snapDistance) == 112);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 116);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 120);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 124);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 128);
+    assert!(offset_of!(kiriSheetDef, framePoints) == 132);
+    assert!(offset_of!(kiriSheetDef, maxFrames) == 136);
+    assert!(offset_of!(kiriSheetDef, rigidWeight) == 140);
+    assert!(offset_of!(kiriSheetDef, rigidArea) == 144);
+    assert!(offset_of!(kiriSheetDef, crumbArea) == 148);
+    assert!(offset_of!(kiriSheetDef, friction) == 152);
+    assert!(offset_of!(kiriSheetDef, contactThickness) == 156);
+    assert!(offset_of!(kiriSheetDef, groups) == 160);
+    assert!(offset_of!(kiriSheetDef, touchesSheets) == 164);
+    assert!(offset_of!(kiriSheetDef, selfContact) == 168);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 172);
+    assert!(offset_of!(kiriSheetDef, iterations) == 176);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 180);
+    assert!(offset_of!(kiriSheetDef, model) == 184);
+    assert!(offset_of!(kiriSheetDef, skinning) == 188);
+    assert!(offset_of!(kiriSheetDef, planar) == 192);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 196);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 200);
+    assert!(offset_of!(kiriSheetDef, normals) == 204);
+    assert!(offset_of!(kiriSheetDef, paper) == 208);
+    assert!(size_of::<kiriSheetSettings>() == 96);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
-    assert!(offset_of!(kiriSheetSettings, maxFrames) == 40);
-    assert!(offset_of!(kiriSheetSettings, crumbArea) == 44);
-    assert!(offset_of!(kiriSheetSettings, friction) == 48);
-    assert!(offset_of!(kiriSheetSettings, contactThickness) == 52);
-    assert!(offset_of!(kiriSheetSettings, groups) == 56);
-    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 60);
-    assert!(offset_of!(kiriSheetSettings, selfContact) == 64);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 68);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 72);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 76);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
-    assert!(offset_of!(kiriSheetSettings, normals) == 88);
+    assert!(offset_of!(kiriSheetSettings, maxFrames) == 44);
+    assert!(offset_of!(kiriSheetSettings, crumbArea) == 48);
+    assert!(offset_of!(kiriSheetSettings, friction) == 52);
+    assert!(offset_of!(kiriSheetSettings, contactThickness) == 56);
+    assert!(offset_of!(kiriSheetSettings, groups) == 60);
+    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 64);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 68);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 72);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 76);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 80);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 84);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 88);
+    assert!(offset_of!(kiriSheetSettings, normals) == 92);
     assert!(size_of::<kiriFold>() == 28);
     assert!(align_of::<kiriFold>() == 4);
     assert!(offset_of!(kiriFold, from) == 0);

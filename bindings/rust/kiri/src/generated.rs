@@ -324,7 +324,8 @@ impl Stage {
     }
 }
 
-/// Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.
+/// Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured
+/// cloths (manual, sheets)
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -339,16 +340,31 @@ pub enum MaterialPreset {
     Foil = 3,
     /// paperboard, 0.4 mm
     Card = 4,
+    /// Silk.
+    Silk = 5,
+    /// Shirting.
+    Shirting = 6,
+    /// Wool.
+    Wool = 7,
+    /// Denim.
+    Denim = 8,
+    /// Jersey.
+    Jersey = 9,
 }
 
 impl MaterialPreset {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 10] = [
         Self::Paper,
         Self::Cotton,
         Self::Rubber,
         Self::Foil,
         Self::Card,
+        Self::Silk,
+        Self::Shirting,
+        Self::Wool,
+        Self::Denim,
+        Self::Jersey,
     ];
 
     /// Of a number of C.
@@ -728,12 +744,13 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
-    /// Bending beyond a curvature of 2 `yield_stress` / (`youngs_modulus` thickness) stays
-    /// ([`Model::Links`] only). Pa, 0 or more; 0: elastic
+    /// Pa, 0 or more: beyond it bending stays ([`Model::Links`] only; manual, folding); 0: elastic
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
-    /// sweeps of the detail layer a tick, 0 (off) to 16, see [`Mesh`]. Presets: cotton 2, others 0
+    /// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
+    pub slack: f32,
+    /// sweeps of the detail layer a tick, 0 (off) to 16, see [`Mesh`]. Presets: cloths 2, others 0
     pub detail: i32,
 }
 
@@ -748,6 +765,7 @@ const _: () = {
     assert!(offset_of!(Material, flex_damping) == offset_of!(sys::kiriMaterial, flexDamping));
     assert!(offset_of!(Material, yield_stress) == offset_of!(sys::kiriMaterial, yieldStress));
     assert!(offset_of!(Material, hardening) == offset_of!(sys::kiriMaterial, hardening));
+    assert!(offset_of!(Material, slack) == offset_of!(sys::kiriMaterial, slack));
     assert!(offset_of!(Material, detail) == offset_of!(sys::kiriMaterial, detail));
 };
 
