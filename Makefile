@@ -482,6 +482,12 @@ ifeq ($(config),coverage)
 $(LIBRARY_OBJECTS): private FLAGS += $(FLAGS_counted)
 endif
 
+# Ticks spend no time in these: they are compiled for size.
+ifeq ($(config),release)
+$(patsubst %,$(BUILD)/src/%.c.o,$(addprefix world/kiri_,api_sheet api_contact api_world call draw part record state) \
+    $(addprefix sheet/kiri_,build detach sheet_save) mesh/kiri_mesh_build mesh/kiri_mesh_check): private FLAGS += -Os
+endif
+
 $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS) $(TO_LINK)
 	@rm -f $@
 	@$(AR) rcs $@ $(LIBRARY_OBJECTS)
