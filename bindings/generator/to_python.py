@@ -50,7 +50,7 @@ def doc_of(function):
         return f"Returns the defaults of {function['parameters'][0]['type']}."
     doc = re.sub(r"^Gets? ", "Returns ", function["doc"])
     doc = re.sub(r" ?On failure \*\w+ is 0\.", "", doc)
-    doc = re.sub(r"\*count is their number", "The result is their number", doc)
+    doc = re.sub(r"\*\w+: ", "Result: ", doc)
     doc = re.sub(r"\*(\w+) is 0", lambda found: "the result is None", doc)
     doc = re.sub(r"\b[Nn]ull\b", "None", doc)
     return doc[:1].upper() + doc[1:]

@@ -329,7 +329,7 @@ class Sheet:
             'kiriSheet_GetPieceFrames', 'kiriFrame', self.id, piece)
 
     def drop_crumbs(self, area: float) -> int:
-        """Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their
+        """Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. Result: their
         number.
         """
         return self.world.get('kiriSheet_DropCrumbs', 'int32_t', self.id, area)
