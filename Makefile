@@ -553,7 +553,7 @@ $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_P
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm
 
-$(BUILD)/tests/trade_page: $(patsubst %,$(BUILD)/tests/%.c.o,trade_page springs specimen frame_layout plot) \
+$(BUILD)/tests/trade_page: $(patsubst %,$(BUILD)/tests/%.c.o,trade_page trade_drape springs specimen frame_layout plot) \
         $(BUILD)/samples/image.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lpng -lz -lm

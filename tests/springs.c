@@ -31,7 +31,8 @@ static bool IsSlit(const LatticeDef* def, double u, double v)
 
 static bool IsInside(const LatticeDef* def, double u, double v)
 {
-    return def->disc == 0.0 || hypot(u - def->length / 2.0, v - def->width / 2.0) < def->disc;
+    double away = hypot(u - def->length / 2.0, v - def->width / 2.0);
+    return def->disc == 0.0 || (away < def->disc && away >= def->hole);
 }
 
 /* Gives corners that squares share one number, in `corners`. */

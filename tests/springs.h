@@ -19,7 +19,7 @@ typedef struct Lattice {
 
 typedef struct LatticeDef {
     double length, width, side; /* m; whole numbers of squares */
-    double disc;                /* m: squares farther from the middle are left out; 0: none is */
+    double disc, hole;          /* m: squares farther from the middle, or nearer, are left out; disc 0: none is */
     const double (*slit)[2];    /* points of a polyline along edges of squares, m */
     int slitPoints;
     int ghosts; /* columns beyond u = 0, to be fixed there: a clamp */

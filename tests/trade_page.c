@@ -1,5 +1,5 @@
 /* What accuracy costs, on one page: five materials in four scenes, Kiri's settings and presets, and springs
-   (springs.h). Writes trade.csv and trade.png.
+   (springs.h). Writes trade.csv and trade.png, and prints how cloths drape (trade_drape.h).
 
    Sheets are level at first, and let go: they fall and swing for 0.4 s at 60 ticks a second. The error is the rms
    distance from the reference by the rms way of the reference, over points 2 cm apart and all ticks. The reference is a
@@ -10,6 +10,7 @@
 #include "plot.h"
 #include "specimen.h"
 #include "springs.h"
+#include "trade_drape.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -131,7 +132,7 @@ typedef struct Result {
 
 static LatticeDef DefOf(const Scene* scene, double side)
 {
-    LatticeDef def = { scene->length, scene->width, side, 0.0, scene->slit, scene->slitPoints, 0 };
+    LatticeDef def = { scene->length, scene->width, side, 0.0, 0.0, scene->slit, scene->slitPoints, 0 };
     return def;
 }
 
@@ -433,5 +434,6 @@ int main(int argc, char** argv)
     Require(WriteTable(folder) && Plot_WritePage(path, "ms a tick of 1/60 s", "error, % of the way", panels,
                                                  COUNT(stuffs), COUNT(scenes), x, y),
             "cannot write the results");
+    Drape_Print();
     return 0;
 }
