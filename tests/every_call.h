@@ -68,6 +68,8 @@
     CHANGES(kiriCut_Extend, world, 0, NULL, 0)                                                                         \
     CHANGES(kiriCut_End, world, 0)                                                                                     \
     CHANGES(kiriSheet_Slice, world, 0, NULL, NULL)                                                                     \
+    CHANGES(kiriSheet_SetTearing, world, 0, NULL)                                                                      \
+    READS(kiriSheet_GetTearing, world, 0, NULL)                                                                        \
     CHANGES(kiriBeginBlade, world, 0, NULL)                                                                            \
     CHANGES(kiriBlade_MoveEdge, world, 0, NULL, NULL)                                                                  \
     CHANGES(kiriBlade_MoveRay, world, 0, NULL, NULL, 0)                                                                \

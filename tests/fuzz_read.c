@@ -137,6 +137,16 @@ static void ReadWind(Fuzz* fuzz, kiriWind* wind)
     wind->lift = FuzzBytes_Float(&fuzz->bytes, 0.0f, 1.0f);
 }
 
+static void ReadTearing(Fuzz* fuzz, kiriTearing* tearing)
+{
+    tearing->toughness = FuzzBytes_Float(&fuzz->bytes, 0.0f, 100.0f);
+    tearing->grain[0] = FuzzBytes_Float(&fuzz->bytes, -1.0f, 1.0f);
+    tearing->grain[1] = FuzzBytes_Float(&fuzz->bytes, -1.0f, 1.0f);
+    tearing->grainRatio = FuzzBytes_Float(&fuzz->bytes, 0.0f, 8.0f);
+    tearing->maxSpeed = FuzzBytes_Float(&fuzz->bytes, 0.0f, 4.0f);
+    tearing->maxTips = FuzzBytes_Below(&fuzz->bytes, 4);
+}
+
 static void ReadPin(Fuzz* fuzz, kiriSheet sheet, kiriPinDef* def)
 {
     kiriDefaultPinDef(def);
@@ -444,6 +454,9 @@ static void ReadDef(Fuzz* fuzz, FuzzAct* act, char need)
         break;
     case 'W':
         ReadWind(fuzz, &act->def.wind);
+        break;
+    case 'A':
+        ReadTearing(fuzz, &act->def.tearing);
         break;
     case 'I':
         ReadPin(fuzz, act->sheet, &act->def.pin);

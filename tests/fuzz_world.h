@@ -42,6 +42,7 @@ typedef struct FuzzAct {
     union {
         kiriBudget budget;
         kiriWind wind;
+        kiriTearing tearing;
         kiriPinDef pin;
         kiriObstacleDef obstacle;
         kiriSheetDef sheet;
@@ -104,7 +105,8 @@ extern const FuzzCall fuzzCalls[];
 extern const int32_t fuzzCallCount;
 
 /* s f p c o b m: ids, m of a seam. v: a place in the world, V: a vector. r: a rest point. R: a rotation. x: a number. n: a small whole
-   one. P: rest points, F: frames, L: folds. B W I O S T C E: budget, wind, pin, obstacle, sheet, settings, contacts, seam. */
+   one. P: rest points, F: frames, L: folds. B W A I O S T C E: budget, wind, tearing, pin,
+   obstacle, sheet, settings, contacts, seam. */
 void FuzzAct_Read(FuzzAct* act, Fuzz* fuzz, const char* needs);
 
 void FuzzIds_Add(FuzzIds* ids, uint32_t id);

@@ -404,6 +404,19 @@ static void Blow(Storm* storm)
     Storm_Note(storm, kiriSheet_SetWind(storm->world, Storm_AnySheet(storm), &wind));
 }
 
+static void Rip(Storm* storm)
+{
+    static const float toughness[] = { 0.0f, 1.0f, 100.0f };
+    kiriSheet sheet = Storm_AnySheet(storm);
+    kiriTearing tearing = { 0 };
+    tearing.toughness = toughness[Storm_Random(storm, 3)];
+    tearing.grain[0] = Storm_Between(storm, -1.0f, 1.0f);
+    tearing.grain[1] = Storm_Between(storm, -1.0f, 1.0f);
+    tearing.grainRatio = Storm_Between(storm, 1.0f, 4.0f);
+    tearing.maxTips = (int32_t)Storm_Random(storm, 4);
+    Storm_Note(storm, kiriSheet_SetTearing(storm->world, sheet, &tearing));
+}
+
 static void Turn(Storm* storm)
 {
     float gravity[3];
@@ -559,6 +572,7 @@ void Storm_Act(Storm* storm)
                                    Push,
                                    Push,
                                    Blow,
+                                   Rip,
                                    Turn,
                                    MoveObstacle,
                                    MoveObstacle,

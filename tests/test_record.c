@@ -145,6 +145,7 @@ static void HoldAndLoad(Tape* tape, kiriSheet sheet)
     const float force[3] = { 0.01f, 0.0f, 0.02f }, from[2] = { 0.1f, 0.8f }, to[2] = { 0.9f, 0.8f };
     kiriFrame frame = FrameAt(tape, sheet, 0.9f, 0.9f);
     const kiriWind wind = { { 1.0f, 0.5f, 0.2f }, 1.2f, 1.1f, 0.1f };
+    const kiriTearing tearing = { 200.0f, { 1.0f, 0.5f }, 2.0f, 1.0f, 3 };
     kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
     kiriFrameState state = World_FrameState(world, frame);
     OK(kiriFrame_Hold(world, frame, state.position, axes));
@@ -154,6 +155,7 @@ static void HoldAndLoad(Tape* tape, kiriSheet sheet)
     OK(kiriSheet_ApplyPressure(world, sheet, -0.5f));
     OK(kiriSheet_ApplyImpulse(world, sheet, to, force));
     OK(kiriSheet_SetWind(world, sheet, &wind));
+    OK(kiriSheet_SetTearing(world, sheet, &tearing));
     OK(kiriSheet_SetContacts(world, sheet, &contact, 1));
     Tape_Tick(tape);
     OK(kiriFrame_Hold(world, frame, NULL, NULL));
@@ -462,7 +464,7 @@ static void TestAllFieldsAreRecorded(void** state)
             found++;
         }
     }
-    assert_int_equal(found, 10);
+    assert_int_equal(found, 11);
 }
 
 /* ---- Read-only arguments ----------------------------------------------------------------------------------------- */

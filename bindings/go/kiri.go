@@ -105,17 +105,23 @@ const (
 	EventPieceDetached EventType = 7
 	// seam, stitches: some stitches broke; with none left the id is stale from now on
 	EventSeamBroke EventType = 8
+	// cut: the library began it, see kiriTearing
+	EventTearBegan EventType = 9
+	// cut: the tear has rested for half a second; the id is stale from now on
+	EventTearEnded EventType = 10
 )
 
 var namesEventType = map[EventType]string{
-	1: "KIRI_EVENT_CUT_FINISHED",
-	2: "KIRI_EVENT_PIECE_OFF",
-	3: "KIRI_EVENT_FRAME_ADDED",
-	4: "KIRI_EVENT_DIVERGED",
-	5: "KIRI_EVENT_DEFERRED",
-	6: "KIRI_EVENT_PIN_BROKE",
-	7: "KIRI_EVENT_PIECE_DETACHED",
-	8: "KIRI_EVENT_SEAM_BROKE",
+	1:  "KIRI_EVENT_CUT_FINISHED",
+	2:  "KIRI_EVENT_PIECE_OFF",
+	3:  "KIRI_EVENT_FRAME_ADDED",
+	4:  "KIRI_EVENT_DIVERGED",
+	5:  "KIRI_EVENT_DEFERRED",
+	6:  "KIRI_EVENT_PIN_BROKE",
+	7:  "KIRI_EVENT_PIECE_DETACHED",
+	8:  "KIRI_EVENT_SEAM_BROKE",
+	9:  "KIRI_EVENT_TEAR_BEGAN",
+	10: "KIRI_EVENT_TEAR_ENDED",
 }
 
 func (v EventType) String() string { return namesEventType[v] }
@@ -805,6 +811,22 @@ type PieceMesh struct {
 	CollisionPointCount int32
 }
 
+// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
+// across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
+// (tearing).
+type Tearing struct {
+	// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
+	Toughness float32
+	// direction in the rest plane along which it tears; 0, 0: none
+	Grain [2]float32
+	// 1 or more: toughness across the grain, relative to along it; 0: 1
+	GrainRatio float32
+	// m/s in the rest plane, 0 or more; 0: no limit but the distance above
+	MaxSpeed float32
+	// tips that tear in a tick, 0 or more; 0: 8. Others wait
+	MaxTips int32
+}
+
 // Pose, motion and region of a frame.
 type FrameState struct {
 	// m
@@ -1030,6 +1052,7 @@ var _ [0]struct{} = [unsafe.Sizeof(Totals{}) - C.sizeof_kiriTotals]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Hit{}) - C.sizeof_kiriHit]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PointState{}) - C.sizeof_kiriPointState]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PieceState{}) - C.sizeof_kiriPieceState]struct{}{}
+var _ [0]struct{} = [unsafe.Sizeof(Tearing{}) - C.sizeof_kiriTearing]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(FrameState{}) - C.sizeof_kiriFrameState]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Wind{}) - C.sizeof_kiriWind]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PinDef{}) - C.sizeof_kiriPinDef]struct{}{}
@@ -2389,6 +2412,39 @@ func (s Sheet) Slice(blade [12]float32) (Cut, error) {
 	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
+// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+func (s Sheet) SetTearing(tearing *Tearing) error {
+	if err := s.World.check(); err != nil {
+		return err
+	}
+	result := C.kiriSheet_SetTearing(s.World.c, C.kiriSheet(s.ID), (*C.kiriTearing)(unsafe.Pointer(tearing)))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetTearing", result, true); err != nil {
+		return err
+	}
+	return nil
+}
+
+var poolSheetGetTearing pool[struct {
+	tearing Tearing
+}]
+
+// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+func (s Sheet) Tearing() (Tearing, error) {
+	var made0 Tearing
+	if err := s.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSheetGetTearing.take()
+	result := C.kiriSheet_GetTearing(s.World.c, C.kiriSheet(s.ID), (*C.kiriTearing)(unsafe.Pointer(&block.tearing)))
+	answer := poolSheetGetTearing.give(block)
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetTearing", result, false); err != nil {
+		return made0, err
+	}
+	return answer.tearing, nil
+}
+
 var poolWorldBeginBlade pool[struct {
 	blade C.kiriBlade
 }]
@@ -3325,6 +3381,8 @@ var functions = map[string]string{
 	"kiriCut_Extend":                  "Cut.Extend",
 	"kiriCut_End":                     "Cut.End",
 	"kiriSheet_Slice":                 "Sheet.Slice",
+	"kiriSheet_SetTearing":            "Sheet.SetTearing",
+	"kiriSheet_GetTearing":            "Sheet.Tearing",
 	"kiriBeginBlade":                  "World.BeginBlade",
 	"kiriBlade_MoveEdge":              "Blade.MoveEdge",
 	"kiriBlade_MoveRay":               "Blade.MoveRay",

@@ -38,7 +38,7 @@ static const Field REPLAY_FIELDS[] = {
 static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
-static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603 };
+static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603, 0x7, 0x7 };
 
 static const Field EVENT_FIELDS[] = {
     { "type", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, type), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -301,6 +301,16 @@ static const Field PIECE_MESH_FIELDS[] = {
 };
 
 static const Struct PIECE_MESH = { "PieceMesh", (int)sizeof(kiriPieceMesh), 4, PIECE_MESH_FIELDS, NULL, NULL };
+
+static const Field TEARING_FIELDS[] = {
+    { "toughness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, toughness), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "grain", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriTearing, grain), 2, 0, 0, 0, CLASS_NONE, NULL },
+    { "grain_ratio", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, grainRatio), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "max_speed", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, maxSpeed), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "max_tips", TYPE_INT32, KIND_INT, (int)offsetof(kiriTearing, maxTips), 1, 0, 0, 0, CLASS_NONE, NULL },
+};
+
+static const Struct TEARING = { "Tearing", (int)sizeof(kiriTearing), 5, TEARING_FIELDS, NULL, NULL };
 
 static const Field FRAME_STATE_FIELDS[] = {
     { "rest_point", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFrameState, restPoint), 2, 0, 0, 0, CLASS_NONE, NULL },
@@ -1562,6 +1572,32 @@ static const Parameter SHEET_SLICE_PARAMETERS[] = {
     { "cut", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_CUT, NULL, NULL },
 };
 
+static const Argument SHEET_SET_TEARING_ARGUMENTS[] = {
+    { "tearing", KIND_DICTIONARY, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_SetTearing(void* const* a)
+{
+    return kiriSheet_SetTearing(a[0], *(kiriSheet*)a[1], a[2]);
+}
+
+static const Parameter SHEET_SET_TEARING_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "tearing", FORM_IN_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &TEARING, NULL },
+};
+
+static int64_t Call_kiriSheet_GetTearing(void* const* a)
+{
+    return kiriSheet_GetTearing(a[0], *(kiriSheet*)a[1], a[2]);
+}
+
+static const Parameter SHEET_GET_TEARING_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "tearing", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &TEARING, NULL },
+};
+
 static const Argument WORLD_BEGIN_BLADE_ARGUMENTS[] = {
     { "sheet", KIND_OBJECT, CLASS_SHEET },
 };
@@ -2279,6 +2315,8 @@ const Method METHODS[] = {
     { CLASS_CUT, "extend", "kiriCut_Extend", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, CUT_EXTEND_ARGUMENTS, 4, CUT_EXTEND_PARAMETERS, Call_kiriCut_Extend, NULL },
     { CLASS_CUT, "end", "kiriCut_End", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, CUT_END_PARAMETERS, Call_kiriCut_End, NULL },
     { CLASS_SHEET, "slice", "kiriSheet_Slice", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_SLICE_ARGUMENTS, 4, SHEET_SLICE_PARAMETERS, Call_kiriSheet_Slice, NULL },
+    { CLASS_SHEET, "set_tearing", "kiriSheet_SetTearing", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_TEARING_ARGUMENTS, 3, SHEET_SET_TEARING_PARAMETERS, Call_kiriSheet_SetTearing, NULL },
+    { CLASS_SHEET, "get_tearing", "kiriSheet_GetTearing", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_TEARING_PARAMETERS, Call_kiriSheet_GetTearing, NULL },
     { CLASS_WORLD, "begin_blade", "kiriBeginBlade", RETURNS_RESULT, KIND_OBJECT, CLASS_BLADE, 1, 0, WORLD_BEGIN_BLADE_ARGUMENTS, 3, WORLD_BEGIN_BLADE_PARAMETERS, Call_kiriBeginBlade, NULL },
     { CLASS_BLADE, "move_edge", "kiriBlade_MoveEdge", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, BLADE_MOVE_EDGE_ARGUMENTS, 4, BLADE_MOVE_EDGE_PARAMETERS, Call_kiriBlade_MoveEdge, NULL },
     { CLASS_BLADE, "move_ray", "kiriBlade_MoveRay", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, BLADE_MOVE_RAY_ARGUMENTS, 5, BLADE_MOVE_RAY_PARAMETERS, Call_kiriBlade_MoveRay, NULL },
@@ -2359,6 +2397,8 @@ const Constant CONSTANTS[] = {
     { "EventType", "EVENT_PIN_BROKE", 6, 0 },
     { "EventType", "EVENT_PIECE_DETACHED", 7, 0 },
     { "EventType", "EVENT_SEAM_BROKE", 8, 0 },
+    { "EventType", "EVENT_TEAR_BEGAN", 9, 0 },
+    { "EventType", "EVENT_TEAR_ENDED", 10, 0 },
     { "Stage", "STAGE_CUT", 0, 0 },
     { "Stage", "STAGE_GRID", 1, 0 },
     { "Stage", "STAGE_REGIONS", 2, 0 },

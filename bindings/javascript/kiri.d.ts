@@ -83,6 +83,10 @@ export enum EventType {
     PieceDetached = 7,
     /** seam, stitches: some stitches broke; with none left the id is stale from now on */
     SeamBroke = 8,
+    /** cut: the library began it, see kiriTearing */
+    TearBegan = 9,
+    /** cut: the tear has rested for half a second; the id is stale from now on */
+    TearEnded = 10,
 }
 
 /** The stages of a tick in their order. */
@@ -299,7 +303,9 @@ export type Event =
     { type: EventType.Deferred; sheet: Sheet; stage: Stage; waiting: number } |
     { type: EventType.PinBroke; sheet: Sheet; pin: Pin } |
     { type: EventType.PieceDetached; sheet: Sheet; frame: Frame; area: number } |
-    { type: EventType.SeamBroke; sheet: Sheet; seam: Seam; stitches: number };
+    { type: EventType.SeamBroke; sheet: Sheet; seam: Seam; stitches: number } |
+    { type: EventType.TearBegan; sheet: Sheet; cut: Cut } |
+    { type: EventType.TearEnded; sheet: Sheet; cut: Cut };
 
 /** Work and time of the last tick. */
 export class Profile {
@@ -889,6 +895,35 @@ export class PieceMesh {
     collisionPointCount: number;
 }
 
+/** How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
+ *  across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
+ *  (tearing). */
+export class Tearing {
+    /** J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
+    toughness: number;
+    /** direction in the rest plane along which it tears; 0, 0: none */
+    grain: number[];
+    /** 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    grainRatio: number;
+    /** m/s in the rest plane, 0 or more; 0: no limit but the distance above */
+    maxSpeed: number;
+    /** tips that tear in a tick, 0 or more; 0: 8. Others wait */
+    maxTips: number;
+}
+/** What a host gives as Tearing: what is left out is 0. */
+export interface TearingGiven {
+    /** J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
+    toughness?: number;
+    /** direction in the rest plane along which it tears; 0, 0: none */
+    grain?: ArrayLike<number>;
+    /** 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    grainRatio?: number;
+    /** m/s in the rest plane, 0 or more; 0: no limit but the distance above */
+    maxSpeed?: number;
+    /** tips that tear in a tick, 0 or more; 0: 8. Others wait */
+    maxTips?: number;
+}
+
 /** Pose, motion and region of a frame. */
 export class FrameState {
     /** m */
@@ -1422,6 +1457,12 @@ export class Sheet {
     /** Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
      *  the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
     slice(blade: ArrayLike<number>): Cut;
+    /** Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+     *  KIRI_MODEL_LINKS. */
+    setTearing(tearing: TearingGiven): ResultCode;
+    /** Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+     *  KIRI_MODEL_LINKS. */
+    getTearing(into?: Tearing): Tearing;
     /** Writes up to `capacity` ids of the sheet's frames; *count is how many there are. */
     getFrames(): Frame[];
     /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */

@@ -16,7 +16,7 @@ export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, Er
 export const LEAST_TRIANGLES = 16;
 export const MOST_NOTE_BYTES = 1048576;
 export const EventType = enumeration({ CutFinished: 1, PieceOff: 2, FrameAdded: 3, Diverged: 4, Deferred: 5, PinBroke:
-    6, PieceDetached: 7, SeamBroke: 8 });
+    6, PieceDetached: 7, SeamBroke: 8, TearBegan: 9, TearEnded: 10 });
 export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Samples: 4, Constants: 5, Contact: 6, Solve:
     7, Skin: 8, Count: 9 });
 export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Silk: 5, Shirting: 6,
@@ -83,6 +83,7 @@ export const layouts = {
         upper: 100, frames: 112, vertices: 116, triangles: 120, collisionPoints: 124, crumb: 128, asleep: 132 } },
     kiriPieceMesh: { size: 28, fields: { vertices: 0, triangles: 4, indices: 8, collisionPoints: 12, vertexCount: 16,
         triangleCount: 20, collisionPointCount: 24 } },
+    kiriTearing: { size: 24, fields: { toughness: 0, grain: 4, grainRatio: 12, maxSpeed: 16, maxTips: 20 } },
     kiriFrameState: { size: 92, fields: { restPoint: 0, position: 8, rotation: 20, velocity: 56, angularVelocity: 68,
         area: 80, mass: 84, held: 88 } },
     kiriWind: { size: 24, fields: { velocity: 0, density: 12, drag: 16, lift: 20 } },
@@ -1038,6 +1039,44 @@ function readPieceMesh(o, at, world) {
     o.triangleCount = I32[(at + 20) >> 2];
     o.collisionPointCount = I32[(at + 24) >> 2];
     return o;
+}
+
+export class Tearing {
+    toughness = 0;
+    grain = [0, 0];
+    grainRatio = 0;
+    maxSpeed = 0;
+    maxTips = 0;
+}
+
+function readTearing(o, at, world) {
+    o.toughness = F32[(at) >> 2];
+    fill(F32, (at + 4) >> 2, o.grain);
+    o.grainRatio = F32[(at + 12) >> 2];
+    o.maxSpeed = F32[(at + 16) >> 2];
+    o.maxTips = I32[(at + 20) >> 2];
+    return o;
+}
+
+const fieldsOfTearing = new Set(["toughness", "grain", "grainRatio", "maxSpeed", "maxTips"]);
+
+function writeTearing(o, at, world) {
+    known(o, fieldsOfTearing, "Tearing");
+    if (o.toughness !== undefined) {
+        F32[(at) >> 2] = o.toughness;
+    }
+    if (o.grain !== undefined) {
+        put("Float32Array", at + 4, o.grain, 2, "grain");
+    }
+    if (o.grainRatio !== undefined) {
+        F32[(at + 12) >> 2] = o.grainRatio;
+    }
+    if (o.maxSpeed !== undefined) {
+        F32[(at + 16) >> 2] = o.maxSpeed;
+    }
+    if (o.maxTips !== undefined) {
+        I32[(at + 20) >> 2] = o.maxTips;
+    }
 }
 
 export class FrameState {
@@ -2279,6 +2318,26 @@ export class Sheet extends Thing {
             fail(this.world, $result, "kiriSheet_Slice");
         }
         return thing(Cut, this.world, U32[(scratch + 48) >> 2]);
+    }
+
+    setTearing(tearing) {
+        const $world = pointer(this.world);
+        U8.fill(0, scratch, scratch + 24);
+        writeTearing(tearing, scratch, this.world);
+        const $result = wasm.kiriSheet_SetTearing($world, this.id, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSheet_SetTearing");
+        }
+        return $result;
+    }
+
+    getTearing(into = new Tearing()) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSheet_GetTearing($world, this.id, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSheet_GetTearing");
+        }
+        return readTearing(into, scratch, this.world);
     }
 
     getFrames() {

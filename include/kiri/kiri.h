@@ -208,7 +208,9 @@ enum kiriEventType {
     KIRI_EVENT_DEFERRED = 5,       /* stage, waiting: the budget ended in this stage of the sheet's work */
     KIRI_EVENT_PIN_BROKE = 6,      /* pin: its force exceeded breakForce; the id is stale from now on */
     KIRI_EVENT_PIECE_DETACHED = 7, /* sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done */
-    KIRI_EVENT_SEAM_BROKE = 8      /* seam, stitches: some stitches broke; with none left the id is stale from now on */
+    KIRI_EVENT_SEAM_BROKE = 8,     /* seam, stitches: some stitches broke; with none left the id is stale from now on */
+    KIRI_EVENT_TEAR_BEGAN = 9,     /* cut: the library began it, see kiriTearing */
+    KIRI_EVENT_TEAR_ENDED = 10     /* cut: the tear has rested for half a second; the id is stale from now on */
 };
 
 /* An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1. */
@@ -671,6 +673,22 @@ KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 /* Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets the
    current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
 KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+
+/* ---- Tear ------------------------------------------------------------------------------------------------------- */
+
+/* How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on across
+   the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip (tearing). */
+typedef struct kiriTearing {
+    float toughness;  /* J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
+    float grain[2];   /* direction in the rest plane along which it tears; 0, 0: none */
+    float grainRatio; /* 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    float maxSpeed;   /* m/s in the rest plane, 0 or more; 0: no limit but the distance above */
+    int32_t maxTips;  /* tips that tear in a tick, 0 or more; 0: 8. Others wait */
+} kiriTearing;
+
+/* Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS. */
+KIRI_API kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
+KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 

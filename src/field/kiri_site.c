@@ -2,23 +2,45 @@
 
 /* ---- Slit ends --------------------------------------------------------------------------------------------------- */
 
-/* Returns the open half-edge that leaves the vertex, where its fan goes all around from the one lip of that edge to the
-   other; else KIRI_NONE. */
-static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
+/* Finds the first and the last corner of a vertex's fan. Returns false if no edge of it is open. */
+static bool FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, int32_t* last)
 {
     KIRI_ASSERT_HAS(mesh->vertices, vertex);
-    int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start;
-    for (int32_t h = kiriMesh_Clockwise(mesh, first); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
+    KIRI_ASSERT(mesh->vertices.data[vertex].edge != KIRI_NONE);
+    int32_t start = mesh->vertices.data[vertex].edge;
+    *first = *last = start;
+    for (int32_t h = kiriMesh_Clockwise(mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
         if (h == start) {
-            return KIRI_NONE; /* no edge is open */
+            return false;
         }
-        first = h;
+        *first = h;
     }
     for (int32_t h = start; h != KIRI_NONE; h = kiriMesh_CounterClockwise(mesh, h)) {
-        last = h;
+        *last = h;
     }
-    bool isEnd = kiriMesh_IsOpen(mesh, first) && kiriMesh_Twin(mesh, kiriEdge_Previous(last)) == first;
-    return isEnd ? first : KIRI_NONE;
+    return true;
+}
+
+/* Returns true if a fan goes all around, from one lip of its first edge to the other. */
+static bool IsSlitEnd(const kiriMeshData* mesh, int32_t first, int32_t last)
+{
+    return kiriMesh_IsOpen(mesh, first) && kiriMesh_Twin(mesh, kiriEdge_Previous(last)) == first;
+}
+
+#define SHARP 0.7 /* cosine of the widest notch */
+
+bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along)
+{
+    int32_t first, last;
+    if (!FindFan(mesh, vertex, &first, &last)) {
+        return false;
+    }
+    int32_t other = kiriEdge_Previous(last); /* leads to the vertex */
+    kiriVec2 a = kiriMesh_Direction(mesh, kiriMesh_Head(mesh, first), vertex);
+    kiriVec2 b = kiriMesh_Direction(mesh, kiriMesh_Tail(mesh, other), vertex), sum = kiriVec2_Add(a, b);
+    bool isNotch = kiriVec2_Dot(a, b) > SHARP && kiriVec2_Cross(a, b) < 0.0;
+    *along = kiriVec2_Scale(1.0 / kiriVec2_Length(sum), sum);
+    return (isNotch || IsSlitEnd(mesh, first, last)) && !kiriMesh_IsCrease(mesh, first) && !kiriMesh_IsCrease(mesh, other);
 }
 
 bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end, int32_t* looks)
@@ -27,10 +49,11 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
     int32_t square = grid->cells.data[cell].square;
     int32_t v = grid->whole.data[square] ? KIRI_NONE : mesh->squares.vertexHead[square];
     for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
-        int32_t lip = kiriGrid_CellOfVertex(grid, mesh, v) == cell ? LipAt(mesh, v) : KIRI_NONE;
+        int32_t first, last;
         *looks += 1;
-        if (lip != KIRI_NONE) {
-            int32_t before = kiriMesh_Tail(mesh, kiriEdge_Next(lip));
+        if (kiriGrid_CellOfVertex(grid, mesh, v) == cell && FindFan(mesh, v, &first, &last) &&
+            IsSlitEnd(mesh, first, last)) {
+            int32_t before = kiriMesh_Head(mesh, first);
             end->at = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, mesh->vertices.data[before].at));
             end->along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
@@ -61,10 +84,15 @@ kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiri
     return KIRI_MORE;
 }
 
-/* Returns the cell to which the straight way through the material leads, or KIRI_NONE where a cut or the outline is in
-   it. */
-static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, kiriVec2 way)
+static double SquaredDistance(kiriVec2 a, kiriVec2 b)
 {
+    kiriVec2 d = kiriVec2_Sub(a, b);
+    return kiriVec2_Dot(d, d);
+}
+
+kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, double left)
+{
+    kiriVec2 way = { -left * end->along.y, left * end->along.x };
     int32_t cell = end->cell, parts = (int32_t)(2.0 * kiriVec2_Length(way) / grid->side) + 1;
     for (int32_t k = 1; k <= parts && cell != KIRI_NONE; ++k) {
         kiriVec2 at = kiriVec2_AddScaled(end->at, (double)k / parts, way);
@@ -72,13 +100,7 @@ static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const k
         cell =
             next != KIRI_NONE && (cell == next || kiriGrid_HasStep(grid, cell, next, KIRI_DIAGONAL)) ? next : KIRI_NONE;
     }
-    return cell;
-}
-
-static double SquaredDistance(kiriVec2 a, kiriVec2 b)
-{
-    kiriVec2 d = kiriVec2_Sub(a, b);
-    return kiriVec2_Dot(d, d);
+    return (kiriSite){ kiriVec2_Add(end->at, way), cell };
 }
 
 /* Adds two sites, `reach` to each side of a slit end; false where other sites or the outline are too near. */
@@ -87,9 +109,7 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
 {
     kiriSite pair[2];
     for (int k = 0; k < 2; ++k) {
-        kiriVec2 left = kiriVec2_Make(-reach * end->along.y, reach * end->along.x);
-        kiriVec2 way = k == 0 ? left : kiriVec2_Scale(-1.0, left);
-        pair[k] = (kiriSite){ kiriVec2_Add(end->at, way), CellAlong(grid, mesh, end, way) };
+        pair[k] = kiriSlit_SiteBeside(grid, mesh, end, k == 0 ? reach : -reach);
         KIRI_EACH_WHILE(pair[k].cell != KIRI_NONE, const kiriSite, site, *sites) {
             if (site->cell == pair[k].cell || SquaredDistance(pair[k].at, site->at) < reach * reach) {
                 return false;

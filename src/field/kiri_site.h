@@ -16,6 +16,10 @@ typedef struct kiriSlitEnd {
 
 typedef KIRI_ARRAY(kiriSlitEnd) kiriSlitEnds;
 
+/* Returns true if a cut, or a sharp notch of the outline, ends at the vertex inside the material. *along: unit, the way on.
+   */
+bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along);
+
 /* Finds the first slit end in a cell; false where there is none. Adds the number of vertices that it read to *looks. */
 bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end,
                          int32_t* looks);
@@ -30,6 +34,10 @@ typedef struct kiriSlitSearch {
    cells. After KIRI_FAILED, start again. */
 kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota);
+
+/* Returns a site to the left of a slit end; left below 0: to its right. Its cell is KIRI_NONE where a cut or the outline is
+   between. */
+kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, double left);
 
 /* Adds a pair of sites at each slit end, with a way of `spacing` from the one to the other over the end: so the line on
    which the slit would go on is a border between their regions. An end without room gets a closer pair, but not closer

@@ -614,7 +614,7 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
     memset(&detach->shown, 0, sizeof(detach->shown));
     memset(&detach->points, 0, sizeof(detach->points));
     kiriPieceLists_Retire(&sheet->lists, retired);
-    sheet->probes.isFresh = false;
+    sheet->probes.isFresh = sheet->tears.areListed = false;
 }
 
 /* To maintain: state that a sheet keeps between ticks must be handled here and in FillPart. */

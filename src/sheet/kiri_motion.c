@@ -2,6 +2,7 @@
 
 #include "../motion/kiri_frame.h"
 #include "kiri_pin.h"
+#include "kiri_tear.h"
 #include "kiri_touch.h"
 #include "kiri_piece.h"
 
@@ -260,8 +261,9 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
     } else if (isMoved && progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
+        double time = sheet->seen.fades.time;
         kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &sheet->solver->moved.links, dt,
-                                  sheet->seen.fades.time);
+                                  kiriTears_AreGrowing(sheet) ? kiriMin(time, KIRI_TEAR_FADE) : time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
     }

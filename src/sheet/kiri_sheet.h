@@ -222,8 +222,16 @@ typedef struct kiriCutData {
     int32_t index; /* in sheet->cuts */
     kiriTip tip;
     int32_t waiting; /* its points in the queue */
+    kiriVec2 tears;  /* unit: the way on of a tear; 0: a cut of the host */
+    double rests;    /* s since the tear went on */
     bool ended;      /* the host ended the cut; it finishes when no point is left in the queue */
 } kiriCutData;
+
+/* Returns true if the library leads the cut. */
+static inline bool kiriCut_IsTear(const kiriCutData* cut)
+{
+    return cut->tears.x != 0.0 || cut->tears.y != 0.0;
+}
 
 /* A pending point of a cut. */
 typedef struct kiriQueuedPoint {
@@ -251,6 +259,7 @@ typedef struct kiriSettings {
     uint32_t groups;
     bool touchesSheets, selfContact;
     kiriAir air;
+    kiriTearing tearing;
     uint64_t userData;        /* stored for the host */
     double collisionPoints;   /* count over the whole sheet; a detached part gets its share by area */
     double integrationPoints; /* likewise */
@@ -449,6 +458,22 @@ typedef struct kiriUpdate {
 
 enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
+/* Where a tear can begin or go on: an end of a slit, or a notch. */
+typedef struct kiriTearTip {
+    kiriLatticePoint point;
+    kiriVec2 along; /* unit: the way on */
+    int32_t vertex;
+} kiriTearTip;
+
+/* See kiri_tear.h. All of it is scratch. */
+typedef struct kiriTears {
+    bool areListed; /* the mesh has not changed since tips were found */
+    KIRI_ARRAY(kiriTearTip) found;
+    kiriIndices order;                     /* of found, by their points */
+    KIRI_ARRAY(kiriStrainOffset) pulls;    /* of links: their strains less their offsets */
+    KIRI_ARRAY(kiriPlasticRegion) regions; /* of frames: the membrane strains that fit their links */
+} kiriTears;
+
 /* A part of a seam in the rest plane, between two stitches. */
 typedef struct kiriSewnLine {
     kiriSeam seam;
@@ -497,6 +522,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */
 
     KIRI_ARRAY(kiriSewnLine) sewn; /* in this tick: where the skin is drawn as it is */
+    kiriTears tears;
     kiriTouches touches;
     kiriSheetRest rest;
     kiriPieceTurns turns;

@@ -24,6 +24,7 @@ KIRI_TABLE(SettingsTable, kiriSettings, {
     KIRI_RUN(4, groups),
     KIRI_BOOLS(touchesSheets, selfContact),
     KIRI_REALS(air),
+    KIRI_RUN(4, tearing),
     KIRI_REALS(collisionPoints, integrationPoints),
     KIRI_WITHIN(1, 2, integrationOrder),
     KIRI_BOOLS(popping, eased),
@@ -251,6 +252,7 @@ KIRI_TABLE(TipTable, kiriTip, {
 
 KIRI_TABLE(CutDataTable, kiriCutData, {
     KIRI_PART(tip, TipTable),
+    KIRI_REALS(tears, rests),
     KIRI_BOOLS(ended),
     KIRI_UNHASHED,
     KIRI_RUN(4, id),
@@ -298,6 +300,12 @@ static void MoveCounts(kiriArchive* archive, void* object)
     count[KIRI_OF_POINTS] = kiriArchive_Count(archive, sheet->points.count, 0, INT32_MAX);
 }
 
+/* A load finds the tips again. */
+KIRI_TABLE(TearsTable, kiriTears, {
+    KIRI_DROPPED(areListed),
+    KIRI_ROOMS(found, order, pulls, regions),
+})
+
 KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_CUSTOM(id, MoveCounts),
     KIRI_PART(settings, SettingsTable),
@@ -323,6 +331,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PART(regions, kiriRegionsTable),
     KIRI_PART(probes, ProbesTable),
     KIRI_ROOM_OF(sewn),
+    KIRI_PART(tears, TearsTable),
     KIRI_ROOMS(pinRows, clampRows, pinReactions, clampReactions, frameReactions),
     KIRI_KEPT(memory, shown),
     KIRI_DROPPED(solver, cuts),

@@ -1,5 +1,6 @@
 #include "kiri_sheet_site.h"
 #include "kiri_piece.h"
+#include "kiri_tear.h"
 #include "../core/kiri_array.h"
 #include "../field/kiri_site.h"
 
@@ -266,6 +267,91 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
         }
     }
     placing->moves.count = kept;
+    return ok;
+}
+
+/* ---- Tears ----
+
+   The nearest site on each side of a tear goes with its tip, and to the end of a cut in a sheet that can tear: so the way on is a border of regions, and the energy that is
+   measured there does not depend on how the other sites lie. */
+
+#define PAIR_REACH 0.25 /* spacings from the way */
+#define PAIR_LAG 0.4    /* spacings behind the tip, at most */
+#define PAIR_RANGE 1.5  /* spacings from the tip within which sites are taken */
+
+/* Returns the nearest site of a piece on one side of the tip that may move, or KIRI_NONE. */
+static int32_t SiteBeside(const kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece, double side, double range)
+{
+    int32_t nearest = KIRI_NONE;
+    KIRI_EACH_INDEX(f, sheet->frames) {
+        kiriVec2 off = kiriVec2_Sub(sheet->update->placing.sites.data[f].at, end->at);
+        double d = kiriVec2_Length(off);
+        bool isThere = sheet->layout.framePiece.data[f] == piece && side * kiriVec2_Cross(end->along, off) > 0.0;
+        nearest = isThere && d < range && !sheet->frames.data[f].held ? f : nearest;
+        range = nearest == f ? d : range;
+    }
+    return nearest;
+}
+
+/* Returns true if the site lies in the material, and no site but two is in its cell or less than a square away. */
+static bool IsFree(const kiriSheetData* sheet, const kiriSite* site, const int32_t except[2])
+{
+    bool isFree = site->cell != KIRI_NONE;
+    KIRI_EACH_INDEX_WHILE(isFree, f, sheet->update->placing.sites) {
+        const kiriSite* other = &sheet->update->placing.sites.data[f];
+        isFree = f == except[0] || f == except[1] ||
+                 (other->cell != site->cell && kiriVec2_Distance(other->at, site->at) > sheet->grid.side);
+    }
+    return isFree;
+}
+
+/* Puts the two sites beside a tip, unless they are there. */
+static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece)
+{
+    double spacing = kiriTears_Spacing(sheet, piece), reach = kiriMax(PAIR_REACH * spacing, sheet->grid.side);
+    int32_t frames[2];
+    kiriSite pair[2];
+    KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
+    bool isFar = false, ok = true;
+    for (int k = 0; k < 2; ++k) {
+        double side = k == 0 ? 1.0 : -1.0;
+        frames[k] = SiteBeside(sheet, end, piece, side, PAIR_RANGE * spacing);
+        pair[k] = kiriSlit_SiteBeside(&sheet->grid, &sheet->mesh, end, side * reach);
+        if (frames[k] == KIRI_NONE) {
+            return true;
+        }
+        kiriVec2 way = kiriVec2_Sub(pair[k].at, sheet->update->placing.sites.data[frames[k]].at);
+        isFar = isFar || fabs(kiriVec2_Dot(way, end->along)) > PAIR_LAG * spacing ||
+                fabs(kiriVec2_Cross(way, end->along)) > 0.25 * reach;
+    }
+    bool isFree = pair[0].cell != pair[1].cell && IsFree(sheet, &pair[0], frames) && IsFree(sheet, &pair[1], frames);
+    kiriPlacingWork* placing = &sheet->update->placing;
+    for (int k = 0; ok && isFar && isFree && k < 2; ++k) {
+        bool hasMoved = false;
+        KIRI_EACH(const kiriSiteMove, move, placing->moves) {
+            hasMoved = hasMoved || move->frame == frames[k];
+        }
+        ok = hasMoved || RecordMove(sheet, frames[k], placing->sites.data[frames[k]].cell);
+        placing->sites.data[frames[k]] = pair[k];
+    }
+    return ok;
+}
+
+bool kiriSites_FollowTears(kiriSheetData* sheet)
+{
+    bool ok = true, isUpdate = sheet->update->cut.taken > 0; /* else a load makes the field again */
+    KIRI_EACH_INDEX_WHILE(ok && isUpdate, c, sheet->cuts) {
+        const kiriCutData* cut = sheet->cuts.data[c];
+        int32_t vertex = cut->tip.blade.vertex;
+        kiriSlitEnd end;
+        bool mayTear = kiriCut_IsTear(cut) || (cut->ended && kiriTears_MayGrow(sheet));
+        if (mayTear && vertex != KIRI_NONE && kiriSlits_WayOn(&sheet->mesh, vertex, &end.along)) {
+            end.at = kiriMesh_Local(&sheet->mesh, kiriMesh_At(&sheet->mesh, vertex));
+            end.along = kiriCut_IsTear(cut) ? cut->tears : end.along;
+            end.cell = kiriGrid_CellOfVertex(&sheet->grid, &sheet->mesh, vertex);
+            ok = MovePair(sheet, &end, kiriPiece_OfVertex(sheet, vertex));
+        }
+    }
     return ok;
 }
 

@@ -21,6 +21,9 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
    on out of memory. */
 bool kiriSites_Relocate(kiriSheetData* sheet);
 
+/* Moves the two sites nearest to the tip of each tear beside it. Fails on out of memory. */
+bool kiriSites_FollowTears(kiriSheetData* sheet);
+
 /* Places at least one site in each piece of orphans. Needs cleared marks, one a cell. */
 kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells);
 

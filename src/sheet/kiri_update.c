@@ -101,7 +101,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
 {
     if (sheet->mesh.changedTriangles.count > 0) {
         kiriPieceLists_Forget(&sheet->lists);
-        sheet->probes.isFresh = false;
+        sheet->probes.isFresh = sheet->tears.areListed = false;
         kiriView_WriteTopology(sheet);
     }
     kiriMesh_Commit(&sheet->mesh);
@@ -154,7 +154,7 @@ static kiriProgress StageRegions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     if (u->step == RELOCATE_SITES) {
-        if (!kiriSites_Relocate(sheet)) {
+        if (!kiriSites_Relocate(sheet) || !kiriSites_FollowTears(sheet)) {
             return KIRI_FAILED;
         }
         u->placing.isFirst = true;
@@ -630,6 +630,9 @@ static void DropStaged(kiriSheetData* sheet)
     kiriSkin_Drop(&sheet->pointSkin);
     u->samples.newPoints.count = u->samples.movedPoints.count = 0;
     u->placing.sites.count = sheet->frames.count;
+    KIRI_EACH_INDEX(f, sheet->frames) {
+        u->placing.sites.data[f] = sheet->frames.data[f].site;
+    }
     u->placing.moves.count = u->placing.movesSeen = 0;
     u->placing.isTaking = u->placing.isPlacing = false;
     kiriLinks_Drop(&sheet->links);
@@ -778,7 +781,11 @@ static void CommitFrames(kiriSheetData* sheet)
     AddFrames(sheet);
     KIRI_EACH_INDEX(i, sheet->frames) {
         kiriFrameData* frame = &sheet->frames.data[i];
+        kiriVec2 was = frame->site.at;
         frame->site = u->placing.sites.data[i];
+        if (i < u->placing.sites.count - u->newFrames.count && memcmp(&was, &frame->site.at, sizeof(was)) != 0) {
+            frame->anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, frame->site.cell); /* it followed a tear */
+        }
         if (sheet->regions.dirty.data[i]) {
             double before = frame->mass;
             kiriFrame_Recenter(frame, &u->material.data[i], densityPerArea);

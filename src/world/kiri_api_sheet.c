@@ -824,3 +824,25 @@ kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, f
     }
     KIRI_RETURN(KIRI_OK);
 }
+
+/* ---- Tearing ---- */
+
+kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing)
+{
+    KIRI_CHANGES(Sheet_SetTearing, &sheet, tearing);
+    kiriSheetData* data = call->sheet;
+    KIRI_CHECK(tearing->toughness == 0.0f || data->settings.mechanics.model == KIRI_MODEL_LINKS,
+               "the model is not KIRI_MODEL_LINKS");
+    if (memcmp(tearing, &data->settings.tearing, sizeof(*tearing)) != 0) {
+        data->settings.tearing = *tearing;
+        kiriSheet_WakeAll(data);
+    }
+    KIRI_RETURN(KIRI_OK);
+}
+
+kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing)
+{
+    KIRI_READS_OF(sheet, tearing);
+    *tearing = found->settings.tearing;
+    return KIRI_OK;
+}

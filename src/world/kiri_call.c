@@ -204,6 +204,17 @@ static const kiriValue windMembers[] = {
 #undef OF
 static const kiriStruct windStruct = STRUCT_OF(kiriWind, 0, NULL, windMembers);
 
+#define OF kiriTearing
+static const kiriValue tearingMembers[] = {
+    FLOATS_IN(toughness, FROM_0),
+    FLOATS_IN(grain, ANY_FINITE),
+    FLOATS_IN(grainRatio, FROM_0),
+    FLOATS_IN(maxSpeed, FROM_0),
+    INTS_IN(maxTips, COUNTING),
+};
+#undef OF
+static const kiriStruct tearingStruct = STRUCT_OF(kiriTearing, 0, NULL, tearingMembers);
+
 #define OF kiriContact
 static const kiriValue contactMembers[] = {
     INTS_IN(point, WITHIN(-1, INT32_MAX)),

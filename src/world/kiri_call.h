@@ -68,7 +68,8 @@ KIRI_C_BEGIN
     X4(CreateFoldedSheet, SHEET_DEF, FOLDS, COUNT, NEW_ID)                                                             \
     X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)                                                                    \
     X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)                                                                          \
-    X3(Sheet_AddFold, SHEET, FOLD, NEW_COUNT)
+    X3(Sheet_AddFold, SHEET, FOLD, NEW_COUNT)                                                                          \
+    X2(Sheet_SetTearing, SHEET, TEARING)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,
@@ -110,6 +111,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(QUAD, FLOATS_OF(12, ANY_FINITE))                                                                                 \
     P(BUDGET, STRUCT_ARGUMENT(budgetStruct, .count = 1)) /* structs */                                                 \
     P(WIND, STRUCT_ARGUMENT(windStruct, .count = 1))                                                                   \
+    P(TEARING, STRUCT_ARGUMENT(tearingStruct, .count = 1))                                                             \
     P(SETTINGS, STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1))                                                       \
     P(PIN_DEF, STRUCT_ARGUMENT(pinDefStruct, .count = 1))                                                              \
     P(SEAM_DEF, STRUCT_ARGUMENT(seamDefStruct, .fault = FaultOfSeamDef))                                               \

@@ -12,6 +12,7 @@
 #include "kiri_move.h"
 #include "kiri_pair.h"
 #include "kiri_seam.h"
+#include "kiri_tearing.h"
 
 #include <string.h>
 
@@ -218,7 +219,8 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     int32_t kept = 0;
     KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
         if (cut->ended && cut->waiting == 0) {
-            kiriWorld_AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
+            int32_t type = kiriCut_IsTear(cut) ? KIRI_EVENT_TEAR_ENDED : KIRI_EVENT_CUT_FINISHED;
+            kiriWorld_AddEvent(world, type, sheet)->cut = cut->id;
             kiriWorld_RemoveCut(world, cut);
         } else {
             cut->index = kept;
@@ -441,6 +443,7 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     world->profile.solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
     world->profile.sheetPairs = kiriPairs_CountAwake(world);
     EnterStage(world, KIRI_NONE);
+    kiriTears_EndResting(world, dt);
     kiriWorld_AdvanceBlades(world);
     world->ticks += 1;
     return result;
@@ -460,6 +463,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     memset(&world->profile, 0, sizeof(world->profile));
     world->atWork.count = 0;
     ListActive(world);
+    kiriResult torn = kiriTears_Grow(world, dt);
     kiriResult parted = PartAll(world);
     StartAll(world, false);
     kiriQuota aside = SetAside(world, &quotas);
@@ -482,7 +486,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     world->newEvents = 0;
     world->samplesDue = samplesDue;
     result = MoveAll(world, dt, substeps, &quotas, aside.left);
-    return updated != KIRI_OK ? updated : parted != KIRI_OK ? parted : result;
+    result = parted != KIRI_OK ? parted : torn != KIRI_OK ? torn : result;
+    return updated != KIRI_OK ? updated : result;
 }
 
 /* Runs a tick without motion. The next tick reports its events, too. */

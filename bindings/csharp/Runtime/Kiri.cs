@@ -1180,6 +1180,22 @@ namespace Kiri
             return new Cut(World, cutValue);
         }
 
+        /// <summary>Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+        /// KIRI_MODEL_LINKS.</summary>
+        public void SetTearing(Tearing tearing)
+        {
+            World.Check(Native.kiriSheet_SetTearing(World.Handle, Id, &tearing));
+        }
+
+        /// <summary>Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+        /// KIRI_MODEL_LINKS.</summary>
+        public Tearing GetTearing()
+        {
+            var tearingValue = new Tearing();
+            World.CheckRead(Native.kiriSheet_GetTearing(World.Handle, Id, &tearingValue));
+            return tearingValue;
+        }
+
         /// <summary>Writes up to `capacity` ids of the sheet's frames; *count is how many there are.</summary>
         public int GetFrames(FrameId[] frames)
         {

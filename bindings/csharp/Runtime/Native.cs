@@ -384,6 +384,10 @@ namespace Kiri
         PieceDetached = 7,
         /// <summary>seam, stitches: some stitches broke; with none left the id is stale from now on</summary>
         SeamBroke = 8,
+        /// <summary>cut: the library began it, see kiriTearing</summary>
+        TearBegan = 9,
+        /// <summary>cut: the tear has rested for half a second; the id is stale from now on</summary>
+        TearEnded = 10,
     }
 
     /// <summary>The stages of a tick in their order.</summary>
@@ -1065,6 +1069,24 @@ namespace Kiri
         public int collisionPointCount;
     }
 
+    /// <summary>How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
+    /// across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
+    /// (tearing).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Tearing
+    {
+        /// <summary>J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear</summary>
+        public float Toughness;
+        /// <summary>direction in the rest plane along which it tears; 0, 0: none</summary>
+        public Float2 Grain;
+        /// <summary>1 or more: toughness across the grain, relative to along it; 0: 1</summary>
+        public float GrainRatio;
+        /// <summary>m/s in the rest plane, 0 or more; 0: no limit but the distance above</summary>
+        public float MaxSpeed;
+        /// <summary>tips that tear in a tick, 0 or more; 0: 8. Others wait</summary>
+        public int MaxTips;
+    }
+
     /// <summary>Pose, motion and region of a frame.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct FrameState
@@ -1612,6 +1634,12 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_Slice(IntPtr world, SheetId sheet, float* blade, CutId* cut);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_SetTearing(IntPtr world, SheetId sheet, Tearing* tearing);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_GetTearing(IntPtr world, SheetId sheet, Tearing* tearing);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriBeginBlade(IntPtr world, SheetId sheet, BladeId* blade);

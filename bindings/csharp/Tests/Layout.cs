@@ -39,6 +39,7 @@ namespace Kiri.Tests
             PointState();
             PieceState();
             PieceMesh();
+            Tearing();
             FrameState();
             Wind();
             PinDef();
@@ -400,6 +401,18 @@ namespace Kiri.Tests
             Is("NativePieceMesh.vertexCount", (byte*)&s.vertexCount - at, 32);
             Is("NativePieceMesh.triangleCount", (byte*)&s.triangleCount - at, 36);
             Is("NativePieceMesh.collisionPointCount", (byte*)&s.collisionPointCount - at, 40);
+        }
+
+        static void Tearing()
+        {
+            Tearing s;
+            byte* at = (byte*)&s;
+            Is("Tearing", sizeof(Tearing), 24);
+            Is("Tearing.Toughness", (byte*)&s.Toughness - at, 0);
+            Is("Tearing.Grain", (byte*)&s.Grain - at, 4);
+            Is("Tearing.GrainRatio", (byte*)&s.GrainRatio - at, 12);
+            Is("Tearing.MaxSpeed", (byte*)&s.MaxSpeed - at, 16);
+            Is("Tearing.MaxTips", (byte*)&s.MaxTips - at, 20);
         }
 
         static void FrameState()

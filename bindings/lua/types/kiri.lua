@@ -27,6 +27,8 @@ kiri.EVENT_DEFERRED = 5
 kiri.EVENT_PIN_BROKE = 6
 kiri.EVENT_PIECE_DETACHED = 7
 kiri.EVENT_SEAM_BROKE = 8
+kiri.EVENT_TEAR_BEGAN = 9
+kiri.EVENT_TEAR_ENDED = 10
 kiri.STAGE_CUT = 0
 kiri.STAGE_GRID = 1
 kiri.STAGE_REGIONS = 2
@@ -350,6 +352,16 @@ kiri.DRAW_ALL = 2047
 ---@field vertexCount? integer
 ---@field triangleCount? integer
 ---@field collisionPointCount? integer
+
+--- How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
+--- across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
+--- (tearing).
+---@class kiri.Tearing
+---@field toughness? number # J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
+---@field grain? number[]|ffi.cdata* # direction in the rest plane along which it tears; 0, 0: none
+---@field grainRatio? number # 1 or more: toughness across the grain, relative to along it; 0: 1
+---@field maxSpeed? number # m/s in the rest plane, 0 or more; 0: no limit but the distance above
+---@field maxTips? integer # tips that tear in a tick, 0 or more; 0: 8. Others wait
 
 --- Pose, motion and region of a frame.
 ---@class kiri.FrameState
@@ -1050,6 +1062,16 @@ function Cut:finish() end
 ---@param blade number[]|ffi.cdata*
 ---@return kiri.Cut
 function Sheet:slice(blade) end
+
+--- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+---@param tearing? kiri.Tearing
+---@return boolean # work is left for later ticks
+function Sheet:setTearing(tearing) end
+
+--- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+---@param tearing? kiri.Tearing
+---@return kiri.Tearing
+function Sheet:getTearing(tearing) end
 
 --- A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
 --- material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is

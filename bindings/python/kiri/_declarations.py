@@ -103,6 +103,8 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriCut_Extend': True,
  'kiriCut_End': True,
  'kiriSheet_Slice': True,
+ 'kiriSheet_SetTearing': True,
+ 'kiriSheet_GetTearing': False,
  'kiriBeginBlade': True,
  'kiriBlade_MoveEdge': True,
  'kiriBlade_MoveRay': True,
@@ -222,6 +224,8 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriCut_Extend': ('Cut', 'extend'),
  'kiriCut_End': ('Cut', 'end'),
  'kiriSheet_Slice': ('Sheet', 'slice'),
+ 'kiriSheet_SetTearing': ('Sheet', 'set_tearing'),
+ 'kiriSheet_GetTearing': ('Sheet', 'tearing'),
  'kiriBeginBlade': ('World', 'begin_blade'),
  'kiriBlade_MoveEdge': ('Blade', 'move_edge'),
  'kiriBlade_MoveRay': ('Blade', 'move_ray'),
@@ -291,6 +295,8 @@ CONSTANTS = {'KIRI_OK': 0,
  'KIRI_EVENT_PIN_BROKE': 6,
  'KIRI_EVENT_PIECE_DETACHED': 7,
  'KIRI_EVENT_SEAM_BROKE': 8,
+ 'KIRI_EVENT_TEAR_BEGAN': 9,
+ 'KIRI_EVENT_TEAR_ENDED': 10,
  'KIRI_STAGE_CUT': 0,
  'KIRI_STAGE_GRID': 1,
  'KIRI_STAGE_REGIONS': 2,
@@ -358,7 +364,7 @@ typedef int32_t kiriResult;
 enum kiriResultCode { KIRI_OK = 0, KIRI_PENDING = 1, KIRI_ERROR_ARGUMENT = -1, KIRI_ERROR_DEF = -2, KIRI_ERROR_ID = -3, KIRI_ERROR_MESH = -4, KIRI_ERROR_STATE = -5, KIRI_ERROR_MEMORY = -6, KIRI_DIVERGED = -7, KIRI_ERROR_LIMIT = -8, KIRI_ERROR_BUILD = -9, KIRI_ERROR_DATA = -10, KIRI_ERROR_REPLAY = -11 };
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1048576 };
-enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI_EVENT_FRAME_ADDED = 3, KIRI_EVENT_DIVERGED = 4, KIRI_EVENT_DEFERRED = 5, KIRI_EVENT_PIN_BROKE = 6, KIRI_EVENT_PIECE_DETACHED = 7, KIRI_EVENT_SEAM_BROKE = 8 };
+enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI_EVENT_FRAME_ADDED = 3, KIRI_EVENT_DIVERGED = 4, KIRI_EVENT_DEFERRED = 5, KIRI_EVENT_PIN_BROKE = 6, KIRI_EVENT_PIECE_DETACHED = 7, KIRI_EVENT_SEAM_BROKE = 8, KIRI_EVENT_TEAR_BEGAN = 9, KIRI_EVENT_TEAR_ENDED = 10 };
 enum kiriStage { KIRI_STAGE_CUT = 0, KIRI_STAGE_GRID = 1, KIRI_STAGE_REGIONS = 2, KIRI_STAGE_SHAPE = 3, KIRI_STAGE_SAMPLES = 4, KIRI_STAGE_CONSTANTS = 5, KIRI_STAGE_CONTACT = 6, KIRI_STAGE_SOLVE = 7, KIRI_STAGE_SKIN = 8, KIRI_STAGE_COUNT = 9 };
 enum kiriMaterialPreset { KIRI_MATERIAL_PAPER = 0, KIRI_MATERIAL_COTTON = 1, KIRI_MATERIAL_RUBBER = 2, KIRI_MATERIAL_FOIL = 3, KIRI_MATERIAL_CARD = 4, KIRI_MATERIAL_SILK = 5, KIRI_MATERIAL_SHIRTING = 6, KIRI_MATERIAL_WOOL = 7, KIRI_MATERIAL_DENIM = 8, KIRI_MATERIAL_JERSEY = 9, KIRI_MATERIAL_COUNT = 10 };
 enum kiriQualityPreset { KIRI_QUALITY_FAST = 0, KIRI_QUALITY_BALANCED = 1, KIRI_QUALITY_ACCURATE = 2, KIRI_QUALITY_COUNT = 3 };
@@ -390,6 +396,7 @@ typedef struct kiriHit kiriHit;
 typedef struct kiriPointState kiriPointState;
 typedef struct kiriPieceState kiriPieceState;
 typedef struct kiriPieceMesh kiriPieceMesh;
+typedef struct kiriTearing kiriTearing;
 typedef struct kiriFrameState kiriFrameState;
 typedef struct kiriWind kiriWind;
 typedef struct kiriPinDef kiriPinDef;
@@ -433,6 +440,7 @@ struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float d
 struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; };
 struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; };
 struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; };
+struct kiriTearing { float toughness; float grain[2]; float grainRatio; float maxSpeed; int32_t maxTips; };
 struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; };
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
@@ -522,6 +530,8 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
+kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);

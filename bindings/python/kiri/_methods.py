@@ -348,6 +348,20 @@ class Sheet:
         """
         return self.world.thing('Cut', self.world.get('kiriSheet_Slice', 'kiriCut', self.id, core.vector(blade, 12)))
 
+    def set_tearing(self, **fields: Any) -> int:
+        """Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+        KIRI_MODEL_LINKS.
+        """
+        kept = []  # until C has read it
+        structure = core.structure(self.world, 'kiriTearing', fields, kept)
+        return self.world.call('kiriSheet_SetTearing', self.id, structure)
+
+    def tearing(self) -> Record:
+        """Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
+        KIRI_MODEL_LINKS.
+        """
+        return core.record(self.world.get('kiriSheet_GetTearing', 'kiriTearing', self.id), self.world)
+
     def frames(self) -> List[kiri.Frame]:
         """Returns the frames of the sheet."""
         things, = self.world.lists('kiriSheet_GetFrames', ('kiriFrame',), self.id)

@@ -66,6 +66,10 @@ pub const KIRI_EVENT_PIN_BROKE: i32 = 6;
 pub const KIRI_EVENT_PIECE_DETACHED: i32 = 7;
 /// seam, stitches: some stitches broke; with none left the id is stale from now on
 pub const KIRI_EVENT_SEAM_BROKE: i32 = 8;
+/// cut: the library began it, see kiriTearing
+pub const KIRI_EVENT_TEAR_BEGAN: i32 = 9;
+/// cut: the tear has rested for half a second; the id is stale from now on
+pub const KIRI_EVENT_TEAR_ENDED: i32 = 10;
 
 /// splits the mesh along the blade
 pub const KIRI_STAGE_CUT: i32 = 0;
@@ -747,6 +751,24 @@ pub struct kiriPieceMesh {
     pub collisionPointCount: i32,
 }
 
+/// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a
+/// sharp notch, goes on across the tension where the sheet would set more energy free than the tear
+/// takes. Two frames go with its tip (tearing).
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriTearing {
+    /// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
+    pub toughness: f32,
+    /// direction in the rest plane along which it tears; 0, 0: none
+    pub grain: [f32; 2],
+    /// 1 or more: toughness across the grain, relative to along it; 0: 1
+    pub grainRatio: f32,
+    /// m/s in the rest plane, 0 or more; 0: no limit but the distance above
+    pub maxSpeed: f32,
+    /// tips that tear in a tick, 0 or more; 0: 8. Others wait
+    pub maxTips: i32,
+}
+
 /// Pose, motion and region of a frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -1280,6 +1302,12 @@ unsafe extern "C" {
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
     /// that it crosses. The cut is already ended.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
+    /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
+    /// than KIRI_MODEL_LINKS.
+    pub fn kiriSheet_SetTearing(world: *mut kiriWorld, sheet: kiriSheet, tearing: *const kiriTearing) -> kiriResult;
+    /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
+    /// than KIRI_MODEL_LINKS.
+    pub fn kiriSheet_GetTearing(world: *const kiriWorld, sheet: kiriSheet, tearing: *mut kiriTearing) -> kiriResult;
     /// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It
     /// remembers where it is in the material of each layer, and cuts on from there, whatever the
     /// sheet did. Move it once a tick at least while it is in a sheet. Each layer has a cut, which
@@ -1673,6 +1701,13 @@ const _: () = {
     assert!(offset_of!(kiriPieceMesh, vertexCount) == 32);
     assert!(offset_of!(kiriPieceMesh, triangleCount) == 36);
     assert!(offset_of!(kiriPieceMesh, collisionPointCount) == 40);
+    assert!(size_of::<kiriTearing>() == 24);
+    assert!(align_of::<kiriTearing>() == 4);
+    assert!(offset_of!(kiriTearing, toughness) == 0);
+    assert!(offset_of!(kiriTearing, grain) == 4);
+    assert!(offset_of!(kiriTearing, grainRatio) == 12);
+    assert!(offset_of!(kiriTearing, maxSpeed) == 16);
+    assert!(offset_of!(kiriTearing, maxTips) == 20);
     assert!(size_of::<kiriFrameState>() == 92);
     assert!(align_of::<kiriFrameState>() == 4);
     assert!(offset_of!(kiriFrameState, restPoint) == 0);
@@ -2036,6 +2071,13 @@ const _: () = {
     assert!(offset_of!(kiriPieceMesh, vertexCount) == 16);
     assert!(offset_of!(kiriPieceMesh, triangleCount) == 20);
     assert!(offset_of!(kiriPieceMesh, collisionPointCount) == 24);
+    assert!(size_of::<kiriTearing>() == 24);
+    assert!(align_of::<kiriTearing>() == 4);
+    assert!(offset_of!(kiriTearing, toughness) == 0);
+    assert!(offset_of!(kiriTearing, grain) == 4);
+    assert!(offset_of!(kiriTearing, grainRatio) == 12);
+    assert!(offset_of!(kiriTearing, maxSpeed) == 16);
+    assert!(offset_of!(kiriTearing, maxTips) == 20);
     assert!(size_of::<kiriFrameState>() == 92);
     assert!(align_of::<kiriFrameState>() == 4);
     assert!(offset_of!(kiriFrameState, restPoint) == 0);

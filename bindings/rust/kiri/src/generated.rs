@@ -248,11 +248,15 @@ pub enum EventType {
     PieceDetached = 7,
     /// seam, stitches: some stitches broke; with none left the id is stale from now on
     SeamBroke = 8,
+    /// cut: the library began it, see [`Tearing`]
+    TearBegan = 9,
+    /// cut: the tear has rested for half a second; the id is stale from now on
+    TearEnded = 10,
 }
 
 impl EventType {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::CutFinished,
         Self::PieceOff,
         Self::FrameAdded,
@@ -261,6 +265,8 @@ impl EventType {
         Self::PinBroke,
         Self::PieceDetached,
         Self::SeamBroke,
+        Self::TearBegan,
+        Self::TearEnded,
     ];
 
     /// Of a number of C.
@@ -1609,6 +1615,48 @@ impl<'a> PieceMesh<'a> {
     }
 }
 
+/// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a
+/// sharp notch, goes on across the tension where the sheet would set more energy free than the tear
+/// takes. Two frames go with its tip (tearing).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Tearing {
+    /// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
+    pub toughness: f32,
+    /// direction in the rest plane along which it tears; 0, 0: none
+    pub grain: [f32; 2],
+    /// 1 or more: toughness across the grain, relative to along it; 0: 1
+    pub grain_ratio: f32,
+    /// m/s in the rest plane, 0 or more; 0: no limit but the distance above
+    pub max_speed: f32,
+    /// tips that tear in a tick, 0 or more; 0: 8. Others wait
+    pub max_tips: i32,
+}
+
+const _: () = {
+    assert!(size_of::<Tearing>() == size_of::<sys::kiriTearing>());
+    assert!(align_of::<Tearing>() == align_of::<sys::kiriTearing>());
+    assert!(offset_of!(Tearing, toughness) == offset_of!(sys::kiriTearing, toughness));
+    assert!(offset_of!(Tearing, grain) == offset_of!(sys::kiriTearing, grain));
+    assert!(offset_of!(Tearing, grain_ratio) == offset_of!(sys::kiriTearing, grainRatio));
+    assert!(offset_of!(Tearing, max_speed) == offset_of!(sys::kiriTearing, maxSpeed));
+    assert!(offset_of!(Tearing, max_tips) == offset_of!(sys::kiriTearing, maxTips));
+};
+
+impl Tearing {
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriTearing) -> Self {
+        // SAFETY: the layout is the same, and any bits are a value of each field.
+        unsafe { *std::ptr::from_ref(raw).cast() }
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn raw(&self) -> sys::kiriTearing {
+        // SAFETY: as above.
+        unsafe { *std::ptr::from_ref(self).cast() }
+    }
+}
+
 /// Pose, motion and region of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameState {
@@ -2229,6 +2277,20 @@ pub enum Event {
         /// that the seam has left, or 0
         stitches: i32,
     },
+    /// cut: the library began it, see [`Tearing`]
+    TearBegan {
+        /// Sheet.
+        sheet: Sheet,
+        /// Cut.
+        cut: Cut,
+    },
+    /// cut: the tear has rested for half a second; the id is stale from now on
+    TearEnded {
+        /// Sheet.
+        sheet: Sheet,
+        /// Cut.
+        cut: Cut,
+    },
 }
 
 impl Event {
@@ -2242,6 +2304,8 @@ impl Event {
             EventType::PinBroke => Self::PinBroke { sheet: Sheet::known(raw.sheet), pin: Pin::known(raw.pin) },
             EventType::PieceDetached => Self::PieceDetached { sheet: Sheet::known(raw.sheet), frame: Frame::known(raw.frame), area: raw.area },
             EventType::SeamBroke => Self::SeamBroke { sheet: Sheet::known(raw.sheet), seam: Seam::known(raw.seam), stitches: raw.stitches },
+            EventType::TearBegan => Self::TearBegan { sheet: Sheet::known(raw.sheet), cut: Cut::known(raw.cut) },
+            EventType::TearEnded => Self::TearEnded { sheet: Sheet::known(raw.sheet), cut: Cut::known(raw.cut) },
         }
     }
 }
@@ -2904,6 +2968,25 @@ impl Sheet {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Slice(world.raw_mut(), self.raw(), blade.as_ptr(), &mut cut) }, world)?;
         Ok(Cut::known(cut))
+    }
+
+    /// Parts of the sheet inherit it. [`ResultCode::ErrorArgument`]: a toughness above 0 with a
+    /// model other than [`Model::Links`].
+    pub fn set_tearing(self, world: &mut World, tearing: &Tearing) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSheet_SetTearing(world.raw_mut(), self.raw(), &tearing.raw()) }, world)?;
+        Ok(())
+    }
+
+    /// Parts of the sheet inherit it. [`ResultCode::ErrorArgument`]: a toughness above 0 with a
+    /// model other than [`Model::Links`].
+    pub fn tearing(self, world: &World) -> Result<Tearing> {
+        let mut tearing = MaybeUninit::<sys::kiriTearing>::uninit();
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSheet_GetTearing(world.raw(), self.raw(), tearing.as_mut_ptr()) })?;
+        // SAFETY: it filled the struct.
+        let tearing = unsafe { tearing.assume_init() };
+        Ok(Tearing::from_raw(&tearing))
     }
 
     /// Writes up to capacity ids of the sheet's frames; \*count is how many there are.

@@ -1,0 +1,368 @@
+#include "kiri_tear.h"
+
+#include "kiri_piece.h"
+#include "../field/kiri_site.h"
+
+#include <string.h>
+
+#define RING_INNER 0.5  /* spacings: radii of the ring in which energy is measured */
+#define RING_OUTER 1.5
+#define REACH 2.0       /* spacings ahead over which the stress is taken */
+#define TURN 1.5        /* rad: of a tear over a spacing, at most */
+#define PACE 0.5        /* spacings in a tick, at most */
+#define LEAST_STEP 4.0  /* snap distances */
+#define STRESS_SHARE 3.0 /* spacings: the stress ahead opens a crack of about this length */
+
+bool kiriTears_AreGrowing(const kiriSheetData* sheet)
+{
+    bool isTearing = false;
+    KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
+        isTearing = isTearing || kiriCut_IsTear(cut);
+    }
+    return isTearing;
+}
+
+double kiriTears_Spacing(const kiriSheetData* sheet, int32_t piece)
+{
+    int32_t frames = 0;
+    KIRI_EACH_INDEX(f, sheet->layout.framePiece) {
+        frames += sheet->layout.framePiece.data[f] == piece;
+    }
+    KIRI_ASSERT(frames > 0);
+    return sqrt(sheet->layout.pieces.data[piece].area / frames);
+}
+
+/* ---- Tips -------------------------------------------------------------------------------------------------------- */
+
+static bool IsTipBefore(const void* context, int32_t a, int32_t b)
+{
+    const kiriTears* tears = context;
+    kiriLatticePoint p = tears->found.data[a].point, q = tears->found.data[b].point;
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+}
+
+/* Lists the ends of slits, and sharp notches. Their order does not depend on how the mesh came about. */
+static bool ListTips(kiriSheetData* sheet)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriTears* tears = &sheet->tears;
+    tears->found.count = tears->order.count = 0;
+    KIRI_EACH_INDEX(v, mesh->vertices) {
+        kiriTearTip tip = { kiriMesh_At(mesh, v), { 0.0, 0.0 }, v };
+        if (kiriSlits_WayOn(mesh, v, &tip.along) &&
+            !(kiriArray_Push(sheet->memory, &tears->order, tears->found.count) &&
+              kiriArray_Push(sheet->memory, &tears->found, tip))) {
+            return false;
+        }
+    }
+    kiriSort(tears->order.data, tears->order.count, IsTipBefore, tears);
+    tears->areListed = true;
+    return true;
+}
+
+/* ---- Strains ----------------------------------------------------------------------------------------------------- */
+
+/* Measures the strains of a link that pull. */
+static void MeasurePull(const kiriSheetData* sheet, int32_t k, const kiriLink* link, const kiriFrameData* i,
+                        const kiriFrameData* j, double pulling[KIRI_STRAINS])
+{
+    const kiriFrameData* const ends[2] = { i, j };
+    const kiriPose own[2] = { kiriPose_Of(i), kiriPose_Of(j) };
+    const kiriPose* const poses[2] = { &own[0], &own[1] };
+    const kiriStrainOffset none = { { 0.0 } };
+    double strain[KIRI_STRAINS];
+    bool hasOffsets = sheet->strainOffsets.strainOffsets.count > 0;
+    kiriStrain_Measure(link, &sheet->settings.material, ends, poses, strain, NULL);
+    kiriStrain_TakeOffsets(strain, hasOffsets ? sheet->strainOffsets.strainOffsets.data[k].strain : none.strain,
+                           KIRI_STRAINS, false, pulling);
+}
+
+/* Measures the links, and fits a membrane strain to each region. */
+static void MeasurePulls(kiriSheetData* sheet)
+{
+    kiriTears* tears = &sheet->tears;
+    const kiriLink* links = sheet->links.links.data;
+    int32_t count = kiriLink_CountBorders(links, sheet->links.links.count);
+    KIRI_ASSERT(count <= tears->pulls.capacity && sheet->frames.count <= tears->regions.capacity);
+    tears->pulls.count = count;
+    tears->regions.count = sheet->frames.count;
+    memset(tears->regions.data, 0, sizeof(kiriPlasticRegion) * (size_t)sheet->frames.count);
+    for (int32_t k = 0; k < count; ++k) {
+        double *pull = tears->pulls.data[k].strain, w = links[k].width / links[k].length;
+        MeasurePull(sheet, k, &links[k], &sheet->frames.data[links[k].i], &sheet->frames.data[links[k].j], pull);
+        kiriVec2 s = links[k].span, gap = kiriVec2_Scale(pull[KIRI_STRETCH], links[k].normal);
+        gap = kiriVec2_AddScaled(gap, pull[KIRI_SHEAR], links[k].tangent);
+        for (int end = 0; end < 2; ++end) {
+            kiriPlasticRegion* region = &tears->regions.data[end == 0 ? links[k].i : links[k].j];
+            region->matrix.uu += w * s.x * s.x;
+            region->matrix.uv += w * s.x * s.y;
+            region->matrix.vv += w * s.y * s.y;
+            region->by[0] = kiriVec2_AddScaled(region->by[0], w * gap.x, s);
+            region->by[1] = kiriVec2_AddScaled(region->by[1], w * gap.y, s);
+        }
+    }
+    KIRI_EACH(kiriPlasticRegion, region, tears->regions) {
+        double least = 0.02 * (region->matrix.uu + region->matrix.vv);
+        region->matrix.uu += least;
+        region->matrix.vv += least;
+        if (least > 0.0) {
+            region->bent = kiriTensor_Solve(region->matrix, region->by);
+        }
+    }
+}
+
+bool kiriTears_Measure(kiriSheetData* sheet)
+{
+    kiriTears* tears = &sheet->tears;
+    if ((!tears->areListed && !ListTips(sheet)) ||
+        !kiriArray_Reserve(sheet->memory, &tears->pulls, sheet->links.links.count) ||
+        !kiriArray_Reserve(sheet->memory, &tears->regions, sheet->frames.count)) {
+        return false;
+    }
+    if (tears->found.count > 0) {
+        MeasurePulls(sheet);
+    }
+    return true;
+}
+
+/* ---- Energy ------------------------------------------------------------------------------------------------------
+
+   A domain integral (Shih, Moran and Nakamura 1986). The material moves by q e in the rest plane: q is 1 around the tip, and
+   falls to 0 over a ring. The maps of the regions stay, so points far away keep their places. The loss of elastic energy is
+   the energy that a longer tear sets free, per length. */
+
+typedef struct Ring {
+    kiriVec2 at, along;
+    double inner, outer;
+} Ring;
+
+static double RingMoveAt(const Ring* ring, kiriVec2 p)
+{
+    double share = (ring->outer - kiriVec2_Distance(p, ring->at)) / (ring->outer - ring->inner);
+    return share <= 0.0 ? 0.0 : kiriMin(share, 1.0);
+}
+
+/* Returns the energy of a link after its material has moved. moves: of its sites; wider: growth of its border. */
+static double EnergyAfter(const kiriSheetData* sheet, int32_t k, const kiriVec2 moves[2], double wider)
+{
+    kiriLink link = sheet->links.links.data[k];
+    kiriFrameData frames[2] = { sheet->frames.data[link.i], sheet->frames.data[link.j] };
+    double pull[KIRI_STRAINS], stiffness[KIRI_STRAINS], sum = 0.0, growth = 1.0 + wider / link.width;
+    KIRI_ASSERT(link.fold == 0 && growth > 0.0);
+    double longer = kiriVec2_Dot(kiriVec2_Sub(moves[1], moves[0]), link.normal);
+    kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(moves[0], moves[1]));
+    link.length += longer;
+    link.span = kiriVec2_AddScaled(link.span, longer, link.normal);
+    link.width *= growth;
+    link.outer *= growth;
+    link.moment *= growth * growth * growth;
+    link.centroid = kiriVec2_Add(link.centroid, middle);
+    link.crossing = kiriVec2_Add(link.crossing, middle);
+    for (int end = 0; end < 2; ++end) {
+        kiriPose pose = kiriPose_Of(&frames[end]);
+        frames[end].center = kiriVec2_Add(frames[end].center, moves[end]);
+        frames[end].site.at = kiriVec2_Add(frames[end].site.at, moves[end]);
+        frames[end].x = kiriVec3_Add(frames[end].x, kiriPose_Along(&pose, moves[end]));
+    }
+    MeasurePull(sheet, k, &link, &frames[0], &frames[1], pull);
+    kiriStrain_Stiffness(&link, &sheet->settings.material, stiffness);
+    for (int e = 0; e < KIRI_STRAINS; ++e) {
+        sum += 0.5 * stiffness[e] * pull[e] * pull[e];
+    }
+    return sum;
+}
+
+/* Returns the energy that a link sets free. A link measures moves across its border; the last term is for moves along it. */
+static double ReleaseOfLink(const kiriSheetData* sheet, const Ring* ring, int32_t k)
+{
+    const kiriLink* link = &sheet->links.links.data[k];
+    const double* pull = sheet->tears.pulls.data[k].strain;
+    kiriVec2 half = kiriVec2_Scale(0.5 * link->width, link->tangent), t = link->tangent;
+    double i = RingMoveAt(ring, sheet->frames.data[link->i].site.at), j = RingMoveAt(ring, sheet->frames.data[link->j].site.at);
+    double across = RingMoveAt(ring, kiriVec2_Add(link->centroid, half)) - RingMoveAt(ring, kiriVec2_Sub(link->centroid, half));
+    if (i == 0.0 && j == 0.0 && across == 0.0) {
+        return 0.0;
+    }
+    double step = 1e-4 * ring->outer, stiffness[KIRI_STRAINS], along = kiriVec2_Dot(ring->along, t);
+    const kiriVec2 on[2] = { kiriVec2_Scale(i * step, ring->along), kiriVec2_Scale(j * step, ring->along) };
+    const kiriVec2 back[2] = { kiriVec2_Scale(-1.0, on[0]), kiriVec2_Scale(-1.0, on[1]) };
+    double wider = step * across * along;
+    double lost = EnergyAfter(sheet, k, back, -wider) - EnergyAfter(sheet, k, on, wider);
+    const kiriTensor *a = &sheet->tears.regions.data[link->i].bent, *b = &sheet->tears.regions.data[link->j].bent;
+    double tt = 0.5 * (t.x * t.x * (a->uu + b->uu) + 2.0 * t.x * t.y * (a->uv + b->uv) + t.y * t.y * (a->vv + b->vv));
+    kiriStrain_Stiffness(link, &sheet->settings.material, stiffness);
+    double beside = stiffness[KIRI_STRETCH] * pull[KIRI_STRETCH] * pull[KIRI_SHEAR] / link->length +
+                    stiffness[KIRI_SHEAR] * pull[KIRI_SHEAR] * tt;
+    double part = sheet->linkParts.count > 0 ? sheet->linkParts.data[k].part : 1.0;
+    return part * (0.5 * lost / step + (j - i) * along * beside);
+}
+
+/* Returns the energy that a corner sets free. Let t be the trace of the gradient of the displacement u, k its stiffness, and q' the
+   gradient of q: k t (e . grad u) . q' - k t^2 / 2 e . q'. */
+static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, const kiriCorner* corner)
+{
+    const kiriLink* links = sheet->links.links.data;
+    bool planar = sheet->settings.mechanics.planar;
+    const double* pulls[4] = { 0 };
+    double stiffness[KIRI_TRACES], sum = 0.0;
+    kiriVec2 slope = { 0.0, 0.0 };
+    KIRI_EACH_INDEX(n, *corner) {
+        const kiriLink* link = &links[corner->link[n]];
+        double change = RingMoveAt(ring, sheet->frames.data[link->j].site.at) -
+                        RingMoveAt(ring, sheet->frames.data[link->i].site.at);
+        slope = kiriVec2_AddScaled(slope, change, corner->weight[n]);
+        pulls[n] = sheet->tears.pulls.data[corner->link[n]].strain;
+    }
+    kiriTrace trace = kiriTrace_Measure(corner, links, pulls, planar);
+    kiriTrace_Stiffness(corner, &sheet->settings.material, stiffness);
+    double stretch = stiffness[KIRI_TRACE_STRETCH] * trace.strain[KIRI_TRACE_STRETCH];
+    double bending = planar ? 0.0 : stiffness[KIRI_TRACE_CURVATURE] * trace.strain[KIRI_TRACE_CURVATURE];
+    KIRI_EACH_INDEX(n, *corner) {
+        const kiriLink* link = &links[corner->link[n]];
+        double normal = kiriVec2_Dot(link->normal, slope), tangent = kiriVec2_Dot(link->tangent, slope);
+        sum += kiriVec2_Dot(corner->weight[n], ring->along) *
+               (stretch * (pulls[n][KIRI_STRETCH] * normal + pulls[n][KIRI_SHEAR] * tangent) +
+                bending * (pulls[n][KIRI_BENDING] * normal + pulls[n][KIRI_TWIST] * tangent));
+    }
+    double stored = stretch * trace.strain[KIRI_TRACE_STRETCH] + bending * trace.strain[KIRI_TRACE_CURVATURE];
+    return sum - 0.5 * stored * kiriVec2_Dot(ring->along, slope);
+}
+
+/* Returns the energy that the tear takes per length, N. */
+static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
+{
+    const kiriTearing* tearing = &sheet->settings.tearing;
+    kiriVec2 grain = { (double)tearing->grain[0], (double)tearing->grain[1] };
+    double square = kiriVec2_Dot(grain, grain), sine = kiriVec2_Cross(grain, along);
+    double across = square > 0.0 ? ((double)tearing->grainRatio - 1.0) * sine * sine / square : 0.0;
+    return (double)tearing->toughness * (double)sheet->settings.material.thickness * (1.0 + kiriMax(across, 0.0));
+}
+
+/* ---- Direction --------------------------------------------------------------------------------------------------- */
+
+/* Returns the mean membrane stress over a half disc ahead, relative to Young's modulus. */
+static kiriTensor StressAhead(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 along, int32_t piece, double reach)
+{
+    double nu = (double)sheet->settings.material.poissonsRatio, mass = 0.0;
+    kiriTensor sum = { 0.0, 0.0, 0.0 };
+    KIRI_EACH_INDEX(f, sheet->tears.regions) {
+        kiriVec2 off = kiriVec2_Sub(sheet->frames.data[f].site.at, at);
+        const kiriTensor* strain = &sheet->tears.regions.data[f].bent;
+        if (sheet->layout.framePiece.data[f] == piece && kiriVec2_Dot(off, along) >= 0.0 &&
+            kiriVec2_Dot(off, off) < reach * reach) {
+            double w = sheet->frames.data[f].mass / (1.0 - nu * nu), trace = nu * (strain->uu + strain->vv);
+            sum.uu += w * ((1.0 - nu) * strain->uu + trace);
+            sum.uv += w * (1.0 - nu) * strain->uv;
+            sum.vv += w * ((1.0 - nu) * strain->vv + trace);
+            mass += sheet->frames.data[f].mass;
+        }
+    }
+    double scale = mass > 0.0 ? 1.0 / mass : 0.0;
+    return (kiriTensor){ scale * sum.uu, scale * sum.uv, scale * sum.vv };
+}
+
+/* Turns a unit vector by an angle of which `half` is the tangent of the half. */
+static kiriVec2 TurnedWay(kiriVec2 e, double half)
+{
+    KIRI_ASSERT(half > -1.0 && half < 1.0);
+    double scale = 1.0 / (1.0 + half * half), c = scale * (1.0 - half * half), s = scale * 2.0 * half;
+    return kiriVec2_Make(c * e.x - s * e.y, s * e.x + c * e.y);
+}
+
+/* Finds the direction with the largest squared stress across it, over the energy that it takes. opens: energy that the mean
+   stress can set free, as a share of the whole. Where it is small, as in a leg that is torn off by bending, the tear
+   goes straight on. */
+static kiriVec2 AimTear(const kiriSheetData* sheet, kiriVec2 e, const kiriTensor* stress, double limit, double opens)
+{
+    enum { WAYS = 12 };
+    double most = 0.0, best = 0.0;
+    for (int m = -WAYS; m <= WAYS; ++m) {
+        kiriVec2 way = TurnedWay(e, limit * m / WAYS);
+        double across = way.y * way.y * stress->uu - 2.0 * way.x * way.y * stress->uv + way.x * way.x * stress->vv;
+        double value = across > 0.0 ? across * across / TakenAlong(sheet, way) : 0.0;
+        best = value > most ? limit * m / WAYS : best;
+        most = kiriMax(value, most);
+    }
+    return TurnedWay(e, kiriMin(opens, 1.0) * best);
+}
+
+/* ---- The way on -------------------------------------------------------------------------------------------------- */
+
+/* Returns the part of the way from a tip at which a half-edge crosses it, above 0; 1: it does not. */
+static double CrossedAt(const kiriMeshData* mesh, int32_t h, kiriVec2 from, kiriVec2 way)
+{
+    kiriVec2 a = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)), from);
+    kiriVec2 b = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), from);
+    double left = kiriVec2_Cross(way, a), right = kiriVec2_Cross(way, b);
+    if (left == right || left * right > 0.0) {
+        return 1.0;
+    }
+    kiriVec2 at = kiriVec2_AddScaled(a, left / (left - right), kiriVec2_Sub(b, a));
+    double part = kiriVec2_Dot(at, way) / kiriVec2_Dot(way, way);
+    return part > 0.0 ? part : 1.0;
+}
+
+/* Returns the part of the way from a tip that is free of lips and outline; 1: all. */
+static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriVec2 way)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriVec2 from = kiriMesh_Local(mesh, tip->point);
+    double part = 1.0;
+    KIRI_ASSERT_HAS(mesh->vertices, tip->vertex);
+    kiriNearby around = kiriNearby_Begin(&mesh->squares, tip->point, kiriMesh_Snap(mesh, kiriVec2_Add(from, way)), 0.0);
+    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+            bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
+            bool isLip = isOutline || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
+            if (isLip && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
+                part = kiriMin(CrossedAt(mesh, h, from, way), part);
+            }
+        }
+    }
+    return part;
+}
+
+/* Returns the energy that the tear sets free per length, N. The ring holds no other tip, if that leaves a spacing. */
+static double ReleaseAt(const kiriSheetData* sheet, const kiriTearTip* tip, kiriVec2 at, double spacing)
+{
+    Ring ring = { at, tip->along, RING_INNER * spacing, RING_OUTER * spacing };
+    double sum = 0.0;
+    KIRI_EACH(const kiriTearTip, other, sheet->tears.found) {
+        double d = kiriVec2_Distance(kiriMesh_Local(&sheet->mesh, other->point), at);
+        ring.outer = d > 0.0 ? kiriMin(ring.outer, d) : ring.outer;
+    }
+    ring.outer = kiriMax(ring.outer, spacing);
+    KIRI_EACH_INDEX(k, sheet->tears.pulls) {
+        sum += ReleaseOfLink(sheet, &ring, k);
+    }
+    KIRI_EACH(const kiriCorner, corner, sheet->links.corners) {
+        sum += ReleaseOfCorner(sheet, &ring, corner);
+    }
+    return sum;
+}
+
+kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, double most, kiriVec2* along)
+{
+    double stiffness = (double)sheet->settings.material.youngsModulus * (double)sheet->settings.material.thickness;
+    int32_t piece = kiriPiece_OfVertex(sheet, tip->vertex);
+    kiriVec2 at = kiriMesh_Local(&sheet->mesh, tip->point);
+    double spacing = kiriTears_Spacing(sheet, piece), taken = TakenAlong(sheet, tip->along);
+    KIRI_ASSERT(most > 0.0 && spacing > 0.0);
+    kiriTensor stress = StressAhead(sheet, at, tip->along, piece, REACH * spacing);
+    double half = 0.5 * (stress.uu - stress.vv), root = sqrt(half * half + stress.uv * stress.uv);
+    double largest = kiriMax(0.5 * (stress.uu + stress.vv) + root, 0.0);
+    /* The measure fails where commits left strains between frames that are not at rest: then the stress bounds it. */
+    double opens = STRESS_SHARE * spacing * stiffness * largest * largest;
+    double release = kiriMax(ReleaseAt(sheet, tip, at, spacing), opens);
+    *along = tip->along;
+    if (!(release > taken)) {
+        return at;
+    }
+    double step = PACE * spacing * (1.0 - taken / release);
+    step = kiriMin(step, most);
+    *along = AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, 2.0 * opens / release);
+    kiriVec2 way = kiriVec2_Scale(step, *along);
+    double part = FreePart(sheet, tip, way), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
+    KIRI_ASSERT(part > 0.0 && part <= 1.0);
+    return part < 1.0 || step >= least ? kiriVec2_AddScaled(at, part, way) : at;
+}

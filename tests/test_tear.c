@@ -1,0 +1,545 @@
+/* Tears against theory, and under everything that holds for cuts. */
+#include "tape.h"
+
+static const float Dt = 1.0f / 60.0f;
+static const double Thickness = 1e-4, Pi = 3.14159265358979;
+
+/* A tear as its events tell. */
+typedef struct Told {
+    int32_t began, ended, off;
+} Told;
+
+static void Told_Add(Told* told, const Host* host)
+{
+    const kiriEvent* events;
+    int32_t count;
+    OK(kiriWorld_GetEvents(host->world, &events, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        told->began += events[i].type == KIRI_EVENT_TEAR_BEGAN;
+        told->ended += events[i].type == KIRI_EVENT_TEAR_ENDED;
+        told->off += events[i].type == KIRI_EVENT_PIECE_OFF;
+        assert_true(events[i].type != KIRI_EVENT_TEAR_BEGAN || events[i].cut != 0);
+    }
+}
+
+static kiriTearing TearingOf(double toughness)
+{
+    kiriTearing tearing;
+    memset(&tearing, 0, sizeof(tearing));
+    tearing.toughness = (float)toughness;
+    return tearing;
+}
+
+static void TakeMaterial(kiriMaterial* material, double young, float poisson)
+{
+    memset(material, 0, sizeof(*material));
+    material->youngsModulus = (float)young;
+    material->poissonsRatio = poisson;
+    material->thickness = (float)Thickness;
+    material->density = 800.0f;
+    material->airDamping = 1.0f;
+    material->flexDamping = 1e-3f;
+}
+
+static void CutLine(const Host* host, kiriSheet sheet, float u0, float v0, float u1, float v1)
+{
+    const float from[2] = { u0, v0 }, to[2] = { u1, v1 };
+    kiriCut cut;
+    OK(kiriBeginCut(host->world, sheet, from, &cut));
+    OK(kiriCut_Extend(host->world, cut, to, 1));
+    OK(kiriCut_End(host->world, cut));
+}
+
+/* The point of the mesh farthest along a direction at which lips end; for one tear in a sheet. Lips are vertices with the
+   same rest position. */
+static void FarthestLip(const Host* host, kiriSheet sheet, double u, double v, double at[2])
+{
+    kiriMesh mesh;
+    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    double most = -1e9;
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        const float* p = &mesh.restPositions[2 * i];
+        double along = u * (double)p[0] + v * (double)p[1];
+        bool isLip = false;
+        for (int32_t k = i + 1; along > most && k < mesh.vertexCount && !isLip; ++k) {
+            isLip = memcmp(p, &mesh.restPositions[2 * k], 2 * sizeof(float)) == 0;
+        }
+        if (isLip) {
+            most = along;
+            at[0] = (double)p[0];
+            at[1] = (double)p[1];
+        }
+    }
+}
+
+/* ---- In the plane ------------------------------------------------------------------------------------------------ */
+
+/* A strip 0.1 x 0.2 m with a cut, clamped at both ends, which are drawn apart. */
+typedef struct Strip {
+    Host host;
+    kiriSheet sheet;
+    kiriPin clamps[2];
+    double apart; /* m */
+    Told told;
+} Strip;
+
+static void Strip_Start(Strip* s, int32_t frames, int32_t grid)
+{
+    const float ends[2][2][2] = { { { 0.0f, 0.0f }, { 0.1f, 0.0f } }, { { 0.0f, 0.2f }, { 0.1f, 0.2f } } };
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriSheetDef def = DefaultSheet();
+    memset(s, 0, sizeof(*s));
+    Host_Start(&s->host);
+    s->host.every = 20;
+    OK(kiriWorld_SetGravity(s->host.world, none));
+    TakeMaterial(&def.material, 2e7, 0.0f);
+    def.gridResolution = grid;
+    def.frameCount = frames;
+    def.planar = 1;
+    def.sleepSpeed = 0.0f;
+    OK(kiriCreateRectangle(s->host.world, 0.1f, 0.2f, 24, 48, &def, &s->sheet));
+    for (int k = 0; k < 2; ++k) {
+        OK(kiriSheet_ClampLine(s->host.world, s->sheet, ends[k][0], ends[k][1], &s->clamps[k]));
+    }
+}
+
+/* Draws the ends apart by this much a tick. Returns the force, N. */
+static double Strip_Pull(Strip* s, double more)
+{
+    double force[3], torque[3];
+    s->apart += more;
+    const float at[3] = { 0.05f, 0.2f + (float)s->apart, 0.0f };
+    OK(kiriPin_SetTarget(s->host.world, s->clamps[1], at));
+    kiriResult result = Host_Tick(&s->host, Dt, 2);
+    assert_true(result == KIRI_OK || result == KIRI_PENDING);
+    OK(kiriPin_GetReaction(s->host.world, s->clamps[1], force, torque));
+    Told_Add(&s->told, &s->host);
+    return force[1];
+}
+
+/* Pulls until a tear begins. Returns the largest force. */
+static double Strip_PullToTear(Strip* s, double more)
+{
+    double most = 0.0;
+    for (int32_t t = 0; t < 2000 && s->told.began == 0; ++t) {
+        double force = Strip_Pull(s, more);
+        most = force > most ? force : most;
+    }
+    assert_true(s->told.began > 0);
+    return most;
+}
+
+/* A crack of length 2 a amid a strip of width W tears at the stress sigma: sigma^2 pi a sec(pi a / W) = toughness E. */
+static void TestCentreCrackTearsAtItsLoad(void** state)
+{
+    static const int32_t frames[] = { 32, 64, 100 };
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        Strip s;
+        double a = 0.025, toughness = 100.0;
+        Strip_Start(&s, frames[k], 48);
+        kiriTearing tearing = TearingOf(toughness);
+        OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+        CutLine(&s.host, s.sheet, 0.025f, 0.1f, 0.075f, 0.1f);
+        double force = Strip_PullToTear(&s, 2e-5);
+        double theory = sqrt(toughness * 2e7 * cos(Pi * a / 0.1) / (Pi * a)) * 0.1 * Thickness;
+        assert_true(fabs(force / theory - 1.0) < 0.15);
+        Host_Stop(&s.host);
+    }
+}
+
+/* Pulls a strip with a cut from its left side, until the tear is beyond u. Writes the tip. */
+static void TearTo(Strip* s, double u, double tip[2])
+{
+    tip[0] = 0.0;
+    for (int32_t t = 0; t < 3000 && tip[0] < u && s->told.off == 0; ++t) {
+        Strip_Pull(s, s->told.began == 0 ? 2e-5 : 5e-6);
+        if (t % 4 == 0 && s->told.began > 0) {
+            FarthestLip(&s->host, s->sheet, 1.0, 0.0, tip);
+        }
+    }
+}
+
+static void TestTearTurnsAcrossThePull(void** state)
+{
+    static const int32_t frames[] = { 32, 64 };
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        Strip s;
+        double tip[2];
+        Strip_Start(&s, frames[k], 64);
+        kiriTearing tearing = TearingOf(100.0);
+        OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+        CutLine(&s.host, s.sheet, -0.01f, 0.0798f, 0.02f, 0.0971f); /* 30 degrees */
+        TearTo(&s, 0.085, tip);
+        assert_true(tip[0] > 0.08);
+        assert_true(fabs(tip[1] - 0.0971) < 0.006);
+        Host_Stop(&s.host);
+    }
+}
+
+static void TestTearFollowsTheGrain(void** state)
+{
+    (void)state;
+    for (int side = -1; side <= 1; side += 2) {
+        Strip s;
+        double tip[2];
+        Strip_Start(&s, 64, 64);
+        kiriTearing tearing = TearingOf(100.0);
+        tearing.grain[0] = 0.906f; /* 25 degrees */
+        tearing.grain[1] = 0.423f * (float)side;
+        tearing.grainRatio = 5.0f;
+        OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+        CutLine(&s.host, s.sheet, -0.01f, 0.1f, 0.02f, 0.1f);
+        TearTo(&s, 0.08, tip);
+        double slope = side * (tip[1] - 0.1) / (tip[0] - 0.02);
+        assert_true(slope > 0.2 && slope < 0.55);
+        Host_Stop(&s.host);
+    }
+}
+
+/* Returns the number of vertices at points on the line u = 0.06 where three fans of the mesh meet. */
+static int32_t CountMet(const Strip* s)
+{
+    kiriMesh mesh = Host_Mesh(&s->host, s->sheet);
+    int32_t met = 0;
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        int32_t same = 0;
+        bool isOn = fabs((double)mesh.restPositions[2 * i] - 0.06) < 1e-4;
+        for (int32_t k = 0; isOn && k < mesh.vertexCount; ++k) {
+            same += memcmp(&mesh.restPositions[2 * i], &mesh.restPositions[2 * k], 2 * sizeof(float)) == 0;
+        }
+        met += same == 3;
+    }
+    return met;
+}
+
+static void TestTearStopsAtACut(void** state)
+{
+    (void)state;
+    Strip s;
+    Strip_Start(&s, 48, 64);
+    kiriTearing tearing = TearingOf(100.0);
+    OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+    CutLine(&s.host, s.sheet, -0.01f, 0.1f, 0.03f, 0.1f);
+    CutLine(&s.host, s.sheet, 0.06f, 0.075f, 0.06f, 0.125f);
+    for (int32_t t = 0; t < 2000 && (t % 8 != 0 || CountMet(&s) == 0); ++t) {
+        Strip_Pull(&s, s.told.began == 0 ? 2e-5 : 5e-6);
+    }
+    for (int32_t t = 0; t < 30; ++t) {
+        Strip_Pull(&s, 0.0);
+    }
+    assert_int_equal(CountMet(&s), 3);
+    assert_true(s.told.ended > 0 && s.told.off == 0);
+    double tip[2];
+    FarthestLip(&s.host, s.sheet, 1.0, 0.0, tip);
+    assert_true(tip[0] < 0.0601); /* nothing behind the cut */
+    Host_Stop(&s.host);
+}
+
+/* ---- Trousers ---------------------------------------------------------------------------------------------------- */
+
+/* A sheet .12 x .06 m with a cut of .05 m along its middle. Three springs hold the end of each leg; they turn the legs up and
+   down, then draw them apart. */
+enum { PINS = 3, TURNS = 60 };
+
+typedef struct Trouser {
+    kiriSheet sheet;
+    kiriPin pins[2][PINS];
+    int32_t ticks;
+    double apart, force; /* m; N a leg */
+} Trouser;
+
+static void Trouser_Start(Trouser* t, kiriWorld* world, double young, int32_t frames, double toughness)
+{
+    const float none[3] = { 0.0f, 0.0f, 0.0f }, from[2] = { -0.01f, 0.03f }, to[2] = { 0.05f, 0.03f };
+    kiriSheetDef def = DefaultSheet();
+    kiriCut cut;
+    memset(t, 0, sizeof(*t));
+    OK(kiriWorld_SetGravity(world, none));
+    TakeMaterial(&def.material, young, 0.3f);
+    def.gridResolution = 64;
+    def.frameCount = frames;
+    def.iterations = 4;
+    def.sleepSpeed = 0.0f;
+    OK(kiriCreateRectangle(world, 0.12f, 0.06f, 48, 24, &def, &t->sheet));
+    kiriTearing tearing = TearingOf(toughness);
+    OK(kiriSheet_SetTearing(world, t->sheet, &tearing));
+    OK(kiriBeginCut(world, t->sheet, from, &cut));
+    OK(kiriCut_Extend(world, cut, to, 1));
+    OK(kiriCut_End(world, cut));
+    OK(kiriWorld_Tick(world, Dt, 2));
+    for (int leg = 0; leg < 2; ++leg) {
+        for (int k = 0; k < PINS; ++k) {
+            kiriPinDef pin = Host_PinDef(0.001f, (float)leg * 0.03f + 0.003f + 0.012f * (float)k, 0.0f, 0.0f, 0.0f);
+            memcpy(pin.target, pin.restPoint, sizeof(pin.restPoint));
+            pin.stiffness = 300.0f;
+            OK(kiriCreatePin(world, t->sheet, &pin, &t->pins[leg][k]));
+        }
+    }
+}
+
+/* A tick. `speed`: of each leg, m/s. */
+static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
+{
+    double turn = 0.5 * Pi * (t->ticks < TURNS ? t->ticks : TURNS) / TURNS, c = cos(turn), s = sin(turn);
+    t->apart += t->ticks > TURNS ? speed * Dt : 0.0;
+    t->ticks += 1;
+    for (int leg = 0; leg < 2; ++leg) {
+        double side = leg == 0 ? -1.0 : 1.0;
+        for (int k = 0; k < PINS; ++k) {
+            const float at[3] = { (float)(0.05 - 0.049 * c), (float)(leg * 0.03 + 0.003 + 0.012 * k),
+                                  (float)(side * (0.049 * s + t->apart)) };
+            OK(kiriPin_SetTarget(world, t->pins[leg][k], at));
+        }
+    }
+    kiriResult result = kiriWorld_Tick(world, Dt, 2);
+    t->force = 0.0;
+    for (int leg = 0; leg < 2; ++leg) {
+        for (int k = 0; k < PINS; ++k) {
+            double force[3], torque[3];
+            OK(kiriPin_GetReaction(world, t->pins[leg][k], force, torque));
+            t->force += 0.5 * (leg == 0 ? -force[2] : force[2]);
+        }
+    }
+    return result;
+}
+
+/* A leg pulls with toughness h / 2. */
+static void TestTrouserPullsWithItsForce(void** state)
+{
+    static const double youngs[] = { 2e7, 2e9 };
+    static const int32_t frames[] = { 16, 32, 64 };
+    (void)state;
+    for (int e = 0; e < 2; ++e) {
+        for (int k = 0; k < 3; ++k) {
+            START_HOST(host);
+            Trouser t;
+            double tip[2], first = 0.0, sum = 0.0, most = 0.0;
+            int32_t count = 0;
+            Trouser_Start(&t, host.world, youngs[e], frames[k], 1e4);
+            for (int32_t n = 0; n < TURNS + 200; ++n) {
+                assert_true(Trouser_Tick(&t, host.world, 0.01) >= 0);
+                if (n > TURNS + 50) {
+                    FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
+                    first = first == 0.0 ? tip[0] : first;
+                    sum += t.force;
+                    most = t.force > most ? t.force : most;
+                    ++count;
+                }
+            }
+            Host_Validate(&host);
+            assert_true(sum / count > 0.1 && sum / count < 0.75 && most < 2.0);
+            assert_true(tip[0] - first > 0.01);
+            Host_Stop(&host);
+        }
+    }
+}
+
+/* ---- State ------------------------------------------------------------------------------------------------------- */
+
+enum { BEFORE = TURNS + 60, AFTER = 60 };
+
+/* Plays a trouser into the middle of its tear. */
+static void PlayTo(Trouser* t, kiriWorld* world, int32_t ticks)
+{
+    Trouser_Start(t, world, 2e7, 24, 1e4);
+    for (int32_t n = 0; n < ticks; ++n) {
+        assert_true(Trouser_Tick(t, world, 0.02) >= 0);
+    }
+}
+
+static void TestSavesAndSnapshotsGoOn(void** state)
+{
+    (void)state;
+    for (int kind = 0; kind < 2; ++kind) {
+        START_HOST(host);
+        START_HOST(other);
+        Trouser t, copy;
+        int64_t size = 0;
+        PlayTo(&t, host.world, BEFORE);
+        copy = t;
+        if (kind == 0) {
+            OK(kiriWorld_Save(host.world, NULL, 0, &size));
+        } else {
+            OK(kiriWorld_Snapshot(host.world, NULL, 0, &size));
+        }
+        uint8_t* bytes = malloc((size_t)size);
+        assert_non_null(bytes);
+        if (kind == 0) {
+            OK(kiriWorld_Save(host.world, bytes, size, &size));
+            OK(kiriWorld_Load(other.world, bytes, size));
+        } else {
+            OK(kiriWorld_Snapshot(host.world, bytes, size, &size));
+            OK(kiriWorld_Restore(other.world, bytes, size));
+        }
+        free(bytes);
+        int32_t vertices = Host_Mesh(&host, t.sheet).vertexCount;
+        for (int32_t n = 0; n < AFTER; ++n) {
+            assert_true(Trouser_Tick(&t, host.world, 0.02) >= 0);
+            assert_true(Trouser_Tick(&copy, other.world, 0.02) >= 0);
+            assert_true(Host_Hash(&host) == Host_Hash(&other));
+        }
+        assert_true(Host_Mesh(&host, t.sheet).vertexCount > vertices); /* it tore on */
+        Host_Stop(&other);
+        Host_Stop(&host);
+    }
+}
+
+static void TestTearsAreReplayed(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    Trouser t;
+    Tape_Start(&tape);
+    PlayTo(&t, tape.host.world, BEFORE + AFTER);
+    Tape_Stop(&tape);
+    Tape_Start(&again);
+    OK(Tape_Play(&again, &tape));
+    Tape_Stop(&again);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* Refused memory, and a small budget: the tear waits, and goes on. */
+static void TestTearsWait(void** state)
+{
+    static const kiriBudget small = { 40, 400, 200, 0 };
+    (void)state;
+    for (int kind = 0; kind < 2; ++kind) {
+        START_HOST(host);
+        Trouser t;
+        double tip[2];
+        PlayTo(&t, host.world, TURNS);
+        host.failEvery = kind == 0 ? 5 : 0;
+        if (kind == 1) {
+            OK(kiriWorld_SetBudget(host.world, &small));
+        }
+        for (int32_t n = 0; n < 240; ++n) {
+            kiriResult result = Trouser_Tick(&t, host.world, 0.02);
+            assert_true(result >= 0 || (kind == 0 && result == KIRI_ERROR_MEMORY));
+            if (n % 8 == 0) {
+                Host_Validate(&host);
+            }
+        }
+        assert_true(kind == 1 || host.refused > 0);
+        FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
+        assert_true(tip[0] > 0.06);
+        Host_Stop(&host);
+    }
+}
+
+/* A piece that is torn off comes off, and leaves; tips of the rest stay. */
+static void TestTearsPart(void** state)
+{
+    (void)state;
+    START_HOST(host);
+    Trouser t;
+    Told told = { 0 };
+    kiriEvent event = { 0 };
+    kiriSheet detached;
+    Trouser_Start(&t, host.world, 2e7, 24, 1e4);
+    CutLine(&host, t.sheet, 0.13f, 0.015f, 0.11f, 0.015f);
+    CutLine(&host, t.sheet, 0.13f, 0.045f, 0.11f, 0.045f);
+    for (int32_t n = 0; n < 600 && told.off == 0; ++n) {
+        assert_true(Trouser_Tick(&t, host.world, 0.05) >= 0);
+        Told_Add(&told, &host);
+        if (n % 8 == 0) {
+            Host_Validate(&host);
+        }
+    }
+    assert_true(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event) > 0);
+    assert_true(kiriFrame_DetachPiece(host.world, event.frame, &detached) >= 0);
+    for (int32_t n = 0; n < 60; ++n) {
+        assert_true(Trouser_Tick(&t, host.world, 0.0) >= 0);
+        Told_Add(&told, &host);
+        Host_Validate(&host);
+    }
+    assert_int_equal(told.began, told.ended);
+    Host_Stop(&host);
+}
+
+/* Without toughness a world is the same to the bit, and allocates nothing more. */
+static void TestNothingCostsWithoutToughness(void** state)
+{
+    (void)state;
+    int64_t calls[2];
+    uint64_t hash[2];
+    for (int k = 0; k < 2; ++k) {
+        START_HOST(host);
+        Trouser t;
+        Trouser_Start(&t, host.world, 2e7, 24, 0.0);
+        kiriTearing tearing = TearingOf(0.0);
+        tearing.maxTips = k;
+        OK(kiriSheet_SetTearing(host.world, t.sheet, &tearing));
+        for (int32_t n = 0; n < TURNS + 30; ++n) {
+            assert_true(Trouser_Tick(&t, host.world, 0.02) >= 0);
+        }
+        tearing.maxTips = 0;
+        OK(kiriSheet_SetTearing(host.world, t.sheet, &tearing));
+        hash[k] = Host_Hash(&host);
+        calls[k] = host.calls;
+        assert_int_equal(Host_Counts(&host, t.sheet).frames, 24);
+        Host_Stop(&host);
+    }
+    assert_true(hash[0] == hash[1] && calls[0] == calls[1]);
+}
+
+/* ---- Arguments --------------------------------------------------------------------------------------------------- */
+
+static void TestTearingIsChecked(void** state)
+{
+    (void)state;
+    START_HOST(host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriTearing tearing = TearingOf(500.0), got;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    tearing.grain[1] = 2.0f;
+    tearing.grainRatio = 3.0f;
+    tearing.maxSpeed = 0.5f;
+    tearing.maxTips = 2;
+    OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
+    OK(kiriSheet_GetTearing(host.world, sheet, &got));
+    assert_memory_equal(&got, &tearing, sizeof(got));
+    float* const fields[] = { &tearing.toughness, &tearing.grainRatio, &tearing.maxSpeed, &tearing.grain[0] };
+    const float wrong[] = { -1.0f, NAN, INFINITY };
+    for (int k = 0; k < 4; ++k) {
+        for (int w = k == 3; w < 3; ++w) {
+            float kept = *fields[k];
+            *fields[k] = wrong[w];
+            assert_int_equal(kiriSheet_SetTearing(host.world, sheet, &tearing), KIRI_ERROR_ARGUMENT);
+            *fields[k] = kept;
+        }
+    }
+    tearing.maxTips = -1;
+    assert_int_equal(kiriSheet_SetTearing(host.world, sheet, &tearing), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_SetTearing(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_GetTearing(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
+    OK(kiriSheet_GetTearing(host.world, sheet, &got));
+    assert_true(got.maxTips == 2 && got.toughness == 500.0f);
+    def.model = KIRI_MODEL_AFFINE;
+    def.position[2] = 1.0f;
+    kiriSheet affine = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    assert_int_equal(kiriSheet_SetTearing(host.world, affine, &got), KIRI_ERROR_ARGUMENT);
+    got.toughness = 0.0f;
+    OK(kiriSheet_SetTearing(host.world, affine, &got));
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestCentreCrackTearsAtItsLoad),
+        cmocka_unit_test(TestTearTurnsAcrossThePull),
+        cmocka_unit_test(TestTearFollowsTheGrain),
+        cmocka_unit_test(TestTearStopsAtACut),
+        cmocka_unit_test(TestTrouserPullsWithItsForce),
+        cmocka_unit_test(TestSavesAndSnapshotsGoOn),
+        cmocka_unit_test(TestTearsAreReplayed),
+        cmocka_unit_test(TestTearsWait),
+        cmocka_unit_test(TestTearsPart),
+        cmocka_unit_test(TestNothingCostsWithoutToughness),
+        cmocka_unit_test(TestTearingIsChecked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
