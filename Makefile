@@ -216,7 +216,7 @@ scarce: packages-bench
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
-	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting swipe)
+	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting swipe toybox)
 	$(BUILD)/tests/test_meeting 5000 1000
 	$(BUILD)/tests/test_swipe 2000 1 TestSwipeStill
 	$(BUILD)/tests/test_swipe 2000 1 TestSwipeSwaying
@@ -224,6 +224,7 @@ long: packages-bench
 	for kind in Swaying Blown; do $(BUILD)/tests/test_swipe 4 1 "TestHold$$kind" 600 || exit 1; done
 	$(BUILD)/tests/test_long all
 	$(BUILD)/tests/test_slicing all
+	$(BUILD)/tests/test_toybox all
 
 page: $(BUILD)/libkiri.so
 	@$(PYTHON) -c 'import cffi, numpy, shapely' 2>/dev/null || { echo "make page takes cffi, NumPy and Shapely"; exit 1; }
