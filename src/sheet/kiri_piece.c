@@ -210,7 +210,7 @@ int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece)
 {
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     bool folds = false;
     KIRI_EACH_INDEX(k, frames) {
         sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
