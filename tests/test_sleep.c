@@ -279,7 +279,7 @@ static void TestCreepingFloorWakes(void** state)
     Host_Stop(&host);
 }
 
-/* A cloth that falls on its edge crumples, and comes to rest. While it falls it is up to 12 mm in the floor. */
+/* A cloth that falls on its edge crumples. It lies on the floor, and not in it. */
 static void TestCrumpledSheetSleeps(void** state)
 {
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; ++skinning) {
@@ -304,7 +304,7 @@ static void TestCrumpledSheetSleeps(void** state)
                 lowest = fmin(mesh.positions[3 * v + 2], lowest);
             }
         }
-        if (!(tick < 480 && lowest > -15e-3)) {
+        if (!(tick < 480 && lowest > -6e-3)) {
             fail_msg("skinning %d: awake for %d ticks, %g m deep", skinning, tick, lowest);
         }
         Host_Stop(&host);
