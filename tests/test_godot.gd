@@ -9,7 +9,7 @@ var at = ""
 func run(kiri_class, class_of_worlds):
 	kiri = kiri_class
 	world_class = class_of_worlds
-	for name in ["constants", "defaults", "worlds", "sheets", "meshes", "cuts", "blades", "events", "frames", "pieces", "pins", "folds", "seams",
+	for name in ["constants", "defaults", "worlds", "sheets", "meshes", "cuts", "blades", "events", "frames", "pieces", "pins", "folds", "seams", "tears",
 			"loads", "obstacles", "contacts", "rays", "saves", "recordings", "drawing", "settings", "handles", "errors", "threads"]:
 		at = name
 		call("test_" + name)
@@ -285,6 +285,13 @@ func test_folds():
 func a_def():
 	var made = kiri.fill_rectangle(1.0, 0.5, 8, 4)
 	return {"rest_positions": made.rest_positions, "indices": made.indices, "frame_count": 6}
+
+func test_tears():
+	var world = a_world()
+	var sheet = a_sheet(world)
+	equal(sheet.set_tearing({"toughness": 1e4, "grain": Vector2(1, 0), "grain_ratio": 2.0}), kiri.OK)
+	near(sheet.get_tearing().toughness, 1e4)
+	equal(sheet.set_tearing({"toughness": -1.0}), kiri.ERROR_ARGUMENT)
 
 func test_seams():
 	var world = a_world()

@@ -520,7 +520,7 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
     kiriIndices* crossed = &meeting->search->crossed;
     int32_t kept = 0;
     crossed->count = 0;
-    if (!kiriBounds_FindLeaves(meeting->sheet->seen.bounds, surface, MeetsLine, point, 0, meeting->search->memory,
+    if (!kiriBounds_FindMoving(meeting->sheet->seen.bounds, surface, MeetsLine, point, 0, meeting->search->memory,
                                crossed)) {
         return false;
     }
@@ -885,7 +885,7 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
 {
     kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
     search->triangles.count = 0;
-    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
+    if (!kiriBounds_FindMoving(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
                                search->memory, &search->triangles)) {
         return false;
     }

@@ -316,7 +316,7 @@ static bool WalkTree(const BoxWalk* walk)
 
 typedef struct TriangleSearch {
     const kiriSurface* surface;
-    kiriMeetsFn* meets; /* null: all triangles of leaves are found */
+    kiriMeetsFn* meets;
     const void* space;
     kiriMemory* memory;
     kiriIndices* found;
@@ -327,14 +327,8 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     const TriangleSearch* search = context;
     bool ok = true;
     for (int32_t i = 0; ok && i < count; ++i) {
-        kiriBox box = KIRI_EMPTY_BOX;
-        if (IsHidden(search->surface, triangles[i])) {
-            continue;
-        }
-        if (search->meets != NULL) {
-            box = BoxOfTriangle(search->surface, triangles[i]);
-        }
-        if (search->meets == NULL || search->meets(search->space, &box)) {
+        kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
+        if (!IsHidden(search->surface, triangles[i]) && search->meets(search->space, &box)) {
             ok = kiriArray_Push(search->memory, search->found, triangles[i]);
         }
     }
@@ -354,11 +348,11 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
     return ok;
 }
 
-bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
+bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found)
 {
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, NULL, NULL, memory, found };
+    TriangleSearch search = { surface, meets, context, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }

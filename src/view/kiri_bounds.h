@@ -111,9 +111,9 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);
 
-/* Appends all triangles of the leaves whose box meets the searched space, in no order: cheaper, for callers that test each
-   triangle. Leaves out sleeping triangles if `version` is the version of the movers in the last kiriBounds_Keep. */
-bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
+/* Appends the same triangles in no order. Leaves out sleeping ones if `version` is the version of the movers in the last
+   kiriBounds_Keep; 0: leaves out none. */
+bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
 
 /* Finds the first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector; of two at the
