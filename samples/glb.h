@@ -16,7 +16,7 @@ typedef struct Glb {
     int32_t accessorCount, accessorRoom, partCount, partRoom, timeCount, timeRoom;
 } Glb;
 
-/* Appends all sheets as they are now. Seconds are above those of the moment before, and 0 or more. False without memory. */
+/* Appends all sheets as they are now. Seconds are above the seconds of the moment before, and 0 or more. False without memory. */
 bool Glb_Add(Glb* glb, const kiriWorld* world, float seconds);
 
 /* Writes the file once, with y up. The colour is sRGB, 0 to 1. False: the file took not all of it, or would be 4 GB and more. */

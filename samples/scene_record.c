@@ -186,7 +186,7 @@ static bool StartScene(Scene* scene, const SceneType* type, const kiriWorldDef* 
     return result == KIRI_OK;
 }
 
-/* Measures the box around all sheets. Without a sheet there is none yet. */
+/* Measures the box around all sheets. Without a sheet it is empty. */
 static void Measure(SceneReplay* replay, const Scene* scene)
 {
     Sheets sheets = { .positions = NULL };

@@ -1,5 +1,5 @@
-/* Recordings (kiriWorld_Replay) and saves in files. Notes in them say what a picture shows beside the sheet, so a
-   replay looks like the run. */
+/* Recordings (kiriWorld_Replay) and saves in files. Notes in them name the shapes that a picture shows beside the
+   sheet, so a replay looks like the run. */
 #ifndef SCENE_RECORD_H
 #define SCENE_RECORD_H
 

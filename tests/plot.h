@@ -15,7 +15,7 @@ typedef struct Curve {
 /* Letters a to z (capitals are drawn small), digits and . , % = / - are drawn; others are blanks. */
 bool Plot_Write(const char* path, const char* xName, const char* yName, const Curve* curves, int curveCount);
 
-/* Curves with axes of their own. What lies below `noise` is grey. */
+/* Curves with axes of their own. Values below `noise` are grey. */
 typedef struct Panel {
     const char* title;
     const Curve* curves;
@@ -24,7 +24,7 @@ typedef struct Panel {
 } Panel;
 
 /* A page of panels with the same axes, from x[0] to x[1] and y[0] to y[1], rows from the top; points beyond lie on the
-   border. The legend is that of the first panel. */
+   border. The first panel has the legend. */
 bool Plot_WritePage(const char* path, const char* xName, const char* yName, const Panel* panels, int columns, int rows,
                     const double x[2], const double y[2]);
 

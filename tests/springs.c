@@ -115,7 +115,7 @@ void Lattice_Free(Lattice* l)
 
 /* ---- Springs ---------------------------------------------------------------------------------------------------- */
 
-/* A sum of up to four positions times factors: its length, less that at rest, is what the spring works against. */
+/* A sum of up to four positions times factors. The spring works against the change of its length from rest. */
 typedef struct Spring {
     int count; /* 2: along an edge or a diagonal; 3, 4: bending */
     int vertices[4];
@@ -143,7 +143,7 @@ static void AddSpring(Springs* s, const Spring* added, int window)
     s->springs[s->springCount++] = *added;
 }
 
-/* Together those of a plate with Poisson's ratio 1/3, half of an edge for each square beside it. */
+/* Adds the springs of a plate with Poisson's ratio 1/3, half of an edge for each square beside it. */
 static void AddEdges(Springs* s, const Lattice* l, double stretch, int window)
 {
     static const int pairs[6][2] = { { 0, 1 }, { 3, 2 }, { 0, 3 }, { 1, 2 }, { 0, 2 }, { 1, 3 } };

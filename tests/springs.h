@@ -40,7 +40,7 @@ typedef struct Springs Springs;
 Springs* Springs_Create(const Lattice* lattice, const SpringMaterial* material, const bool* fixed);
 void Springs_Destroy(Springs* springs);
 void Springs_Tick(Springs* springs, double seconds, int substeps);
-double* Springs_GetPositions(Springs* springs);  /* 3 a vertex; those of fixed ones may be changed */
+double* Springs_GetPositions(Springs* springs);  /* 3 a vertex; the positions of fixed vertices may be changed */
 double Springs_GetSpeed(const Springs* springs); /* m/s, rms */
 
 #endif

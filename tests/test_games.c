@@ -96,7 +96,7 @@ static void TestRaysMeetWhatIsSeenThere(void** state)
     }
 }
 
-/* Dark pixels of a text lie between the top of its capitals and the line below; what comes later covers it. */
+/* Dark pixels of a text lie between the top of its capitals and the line below; later shapes cover it. */
 static void TestTextIsSeen(void** state)
 {
     const Color white = { 1.0f, 1.0f, 1.0f, 1.0f }, black = { 0.0f, 0.0f, 0.0f, 1.0f };
@@ -321,7 +321,7 @@ static void TestCurtainIsWon(void** state)
     assert_true(won >= 4);
 }
 
-/* Mesa keeps what it makes for a picture. */
+/* Mesa keeps its buffers of a picture. */
 const char* __lsan_default_suppressions(void);
 const char* __lsan_default_suppressions(void)
 {

@@ -407,7 +407,7 @@ static void TestFlatScene(void** state)
 
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
    though each commit changes the borders of bent regions. */
-/* Folds reach their angles, and cuts through them part what they should. */
+/* Folds reach their angles, and cuts through them part the sheet. */
 static void TestFoldScenes(void** state)
 {
     static const char* const names[] = { "miura", "card" };

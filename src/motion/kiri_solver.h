@@ -438,7 +438,7 @@ typedef struct kiriSearch {
     int32_t solved;            /* systems solved since the iteration started */
     int32_t suspects;          /* consecutive Gauss-Newton steps that gained too much energy */
     bool isFirst;              /* the next Gauss-Newton step is the first */
-    bool isTaken;              /* a part of the last Gauss-Newton step was taken: the strains are those of the poses */
+    bool isTaken;              /* a part of the last Gauss-Newton step was taken: the strains belong to the poses */
     bool mayFlow;              /* links yield; the first iterations are elastic */
 } kiriSearch;
 
