@@ -5,11 +5,12 @@
 #define KIRI_FLOAT_H
 
 /* No fused multiply-add: it rounds once where two operations round twice. GCC obeys this where it is set for functions,
-   which keeps them from being inlined into others: only where the processor has the instruction. */
+   which keeps them from being inlined into others: only where the processor has the instruction. GCC 12 vectorizes a
+   product plus and minus another one by such an instruction all the same (vfmaddsub), unless it vectorizes loops alone. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-tree-slp-vectorize")
 #elif defined(_MSC_VER)
 #pragma fp_contract(off)
 #endif

@@ -180,10 +180,11 @@ static double ReleaseOfLink(const kiriSheetData* sheet, const Ring* ring, int32_
     kiriVec2 half = kiriVec2_Scale(0.5 * link->width, link->tangent), t = link->tangent;
     double i = RingMoveAt(ring, sheet->frames.data[link->i].site.at), j = RingMoveAt(ring, sheet->frames.data[link->j].site.at);
     double across = RingMoveAt(ring, kiriVec2_Add(link->centroid, half)) - RingMoveAt(ring, kiriVec2_Sub(link->centroid, half));
-    if (i == 0.0 && j == 0.0 && across == 0.0) {
+    double step = kiriMin(1e-4 * ring->outer, 0.25 * link->width); /* the moved link keeps a width */
+    if (!(step > 0.0) || (i == 0.0 && j == 0.0 && across == 0.0)) {
         return 0.0;
     }
-    double step = 1e-4 * ring->outer, stiffness[KIRI_STRAINS], along = kiriVec2_Dot(ring->along, t);
+    double stiffness[KIRI_STRAINS], along = kiriVec2_Dot(ring->along, t);
     const kiriVec2 on[2] = { kiriVec2_Scale(i * step, ring->along), kiriVec2_Scale(j * step, ring->along) };
     const kiriVec2 back[2] = { kiriVec2_Scale(-1.0, on[0]), kiriVec2_Scale(-1.0, on[1]) };
     double wider = step * across * along;
