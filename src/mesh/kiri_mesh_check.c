@@ -280,7 +280,7 @@ void kiriMesh_Derive(kiriMeshData* mesh, kiriArchive* archive)
 {
     const kiriSquares* squares = &mesh->squares;
     KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive));
-    kiriArchive_Expect(archive, mesh->step > 0.0 && squares->side > 0 && squares->side % 2 == 0 &&
+    kiriArchive_Expect(archive, mesh->step > 1e-60 && mesh->step < 1e40 && squares->side > 0 && squares->side % 2 == 0 &&
                                     AreLines(squares, squares->firstColumn, squares->columns) &&
                                     AreLines(squares, squares->firstRow, squares->rows) && AreVertices(mesh) &&
                                     AreSourceCorners(mesh) && AreTriangles(mesh) && AreFans(mesh) &&

@@ -109,7 +109,6 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 /* Subtracts the offsets from the strains of a link. The result is the part that causes forces. */
 void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling);
 
-
 /* Returns D of a plate, N m. */
 double kiriStrain_PlateStiffness(const kiriMaterial* material);
 

@@ -17,7 +17,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.cornerCount = sheet->links.corners.count;
     system.strainOffsets =
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
-    if (kiriSettings_Yield(&sheet->settings)) {
+    if (system.linkCount > 0 && kiriSettings_Yield(&sheet->settings)) {
         KIRI_ASSERT(sheet->plastics.links.count == system.linkCount &&
                     system.linkCount == sheet->strainOffsets.strainOffsets.count);
         system.plastics = sheet->plastics.links.data;

@@ -500,7 +500,8 @@ static bool AreCuts(const kiriSheetData* sheet)
         const kiriCutData* cut = sheet->cuts.data[c];
         KIRI_ASSERT(cut->sheet == sheet && cut->index == c);
         const kiriBladeTip* blade = &cut->tip.blade;
-        areFine = IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
+        double along = kiriVec2_Dot(cut->tears, cut->tears);
+        areFine = (along == 0.0 || fabs(along - 1.0) < 1e-6) && IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
                   IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0 &&
                   blade->fold <= sheet->mesh.folds.count &&
                   (blade->vertex == KIRI_NONE ||

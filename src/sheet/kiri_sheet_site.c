@@ -272,8 +272,8 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
 
 /* ---- Tears ----
 
-   The nearest site on each side of a tear goes with its tip, and to the end of a cut in a sheet that can tear: so the way on is a border of regions, and the energy that is
-   measured there does not depend on how the other sites lie. */
+   The nearest site on each side of a tear goes with its tip, and to the end of a cut in a sheet that can tear: so the way
+   on is a border of regions, and the energy that is measured there does not depend on how the other sites lie. */
 
 #define PAIR_REACH 0.25 /* spacings from the way */
 #define PAIR_LAG 0.4    /* spacings behind the tip, at most */

@@ -25,11 +25,14 @@ bool kiriTears_AreGrowing(const kiriSheetData* sheet)
 double kiriTears_Spacing(const kiriSheetData* sheet, int32_t piece)
 {
     int32_t frames = 0;
+    double area = 0.0;
     KIRI_EACH_INDEX(f, sheet->layout.framePiece) {
-        frames += sheet->layout.framePiece.data[f] == piece;
+        bool isIn = sheet->layout.framePiece.data[f] == piece;
+        frames += isIn;
+        area += isIn ? sheet->frames.data[f].area : 0.0;
     }
-    KIRI_ASSERT(frames > 0);
-    return sqrt(sheet->layout.pieces.data[piece].area / frames);
+    KIRI_ASSERT(frames > 0 && area > 0.0);
+    return sqrt(area / frames);
 }
 
 /* ---- Tips -------------------------------------------------------------------------------------------------------- */
@@ -180,8 +183,9 @@ static double ReleaseOfLink(const kiriSheetData* sheet, const Ring* ring, int32_
     kiriVec2 half = kiriVec2_Scale(0.5 * link->width, link->tangent), t = link->tangent;
     double i = RingMoveAt(ring, sheet->frames.data[link->i].site.at), j = RingMoveAt(ring, sheet->frames.data[link->j].site.at);
     double across = RingMoveAt(ring, kiriVec2_Add(link->centroid, half)) - RingMoveAt(ring, kiriVec2_Sub(link->centroid, half));
-    double step = kiriMin(1e-4 * ring->outer, 0.25 * link->width); /* the moved link keeps a width */
-    if (!(step > 0.0) || (i == 0.0 && j == 0.0 && across == 0.0)) {
+    /* The moved link keeps a width and a length. */
+    double step = kiriMin(1e-4 * ring->outer, 0.25 * kiriMin(link->width, link->length));
+    if (i == 0.0 && j == 0.0 && across == 0.0) {
         return 0.0;
     }
     double stiffness[KIRI_STRAINS], along = kiriVec2_Dot(ring->along, t);
