@@ -819,7 +819,7 @@ type Tearing struct {
 	Toughness float32
 	// direction in the rest plane along which it tears; 0, 0: none
 	Grain [2]float32
-	// 1 or more: toughness across the grain, relative to along it; 0: 1
+	// toughness across the grain, relative to along it; below 1: 1
 	GrainRatio float32
 	// m/s in the rest plane, 0 or more; 0: no limit but the distance above
 	MaxSpeed float32

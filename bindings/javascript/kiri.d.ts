@@ -903,7 +903,7 @@ export class Tearing {
     toughness: number;
     /** direction in the rest plane along which it tears; 0, 0: none */
     grain: number[];
-    /** 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    /** toughness across the grain, relative to along it; below 1: 1 */
     grainRatio: number;
     /** m/s in the rest plane, 0 or more; 0: no limit but the distance above */
     maxSpeed: number;
@@ -916,7 +916,7 @@ export interface TearingGiven {
     toughness?: number;
     /** direction in the rest plane along which it tears; 0, 0: none */
     grain?: ArrayLike<number>;
-    /** 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    /** toughness across the grain, relative to along it; below 1: 1 */
     grainRatio?: number;
     /** m/s in the rest plane, 0 or more; 0: no limit but the distance above */
     maxSpeed?: number;

@@ -681,7 +681,7 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 typedef struct kiriTearing {
     float toughness;  /* J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
     float grain[2];   /* direction in the rest plane along which it tears; 0, 0: none */
-    float grainRatio; /* 1 or more: toughness across the grain, relative to along it; 0: 1 */
+    float grainRatio; /* toughness across the grain, relative to along it; below 1: 1 */
     float maxSpeed;   /* m/s in the rest plane, 0 or more; 0: no limit but the distance above */
     int32_t maxTips;  /* tips that tear in a tick, 0 or more; 0: 8. Others wait */
 } kiriTearing;

@@ -1079,7 +1079,7 @@ namespace Kiri
         public float Toughness;
         /// <summary>direction in the rest plane along which it tears; 0, 0: none</summary>
         public Float2 Grain;
-        /// <summary>1 or more: toughness across the grain, relative to along it; 0: 1</summary>
+        /// <summary>toughness across the grain, relative to along it; below 1: 1</summary>
         public float GrainRatio;
         /// <summary>m/s in the rest plane, 0 or more; 0: no limit but the distance above</summary>
         public float MaxSpeed;

@@ -359,7 +359,7 @@ kiri.DRAW_ALL = 2047
 ---@class kiri.Tearing
 ---@field toughness? number # J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
 ---@field grain? number[]|ffi.cdata* # direction in the rest plane along which it tears; 0, 0: none
----@field grainRatio? number # 1 or more: toughness across the grain, relative to along it; 0: 1
+---@field grainRatio? number # toughness across the grain, relative to along it; below 1: 1
 ---@field maxSpeed? number # m/s in the rest plane, 0 or more; 0: no limit but the distance above
 ---@field maxTips? integer # tips that tear in a tick, 0 or more; 0: 8. Others wait
 

@@ -1625,7 +1625,7 @@ pub struct Tearing {
     pub toughness: f32,
     /// direction in the rest plane along which it tears; 0, 0: none
     pub grain: [f32; 2],
-    /// 1 or more: toughness across the grain, relative to along it; 0: 1
+    /// toughness across the grain, relative to along it; below 1: 1
     pub grain_ratio: f32,
     /// m/s in the rest plane, 0 or more; 0: no limit but the distance above
     pub max_speed: f32,
