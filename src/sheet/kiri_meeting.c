@@ -4,9 +4,6 @@
 
 #include <string.h>
 
-/* Average count of patches a frame. A frame has six unknowns, so only bent surfaces need more points. */
-#define PATCHES_A_FRAME 4.0
-
 /* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
    pushed. So a flat surface keeps its vertices. */
 #define PREFERRED 0.5
@@ -775,14 +772,15 @@ static bool TouchCorners(const kiriMeeting* meeting)
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the side of a patch in grid squares. */
+/* Returns the side of a patch in grid squares. A frame has six unknowns, so only bent surfaces need more points. */
 static int32_t PatchSide(const kiriSheetData* sheet, double square)
 {
+    double patchesAFrame = kiriPieces_AnyFolds(sheet) ? 16.0 : 4.0;
     double area = 0.0;
     KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
         area += frame->area;
     }
-    double side = sqrt(area / (PATCHES_A_FRAME * sheet->frames.count)) / square;
+    double side = sqrt(area / (patchesAFrame * sheet->frames.count)) / square;
     return (int32_t)kiriClamp(side, 1.0, 4096.0);
 }
 
@@ -848,7 +846,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             1,
                             sqrt(sheet->settings.friction * obstacle->friction),
                             yield,
-                            (obstacle->shape.type == KIRI_OBSTACLE_PLANE && !kiriPieces_AnyFolds(sheet)) ||
+                            obstacle->shape.type == KIRI_OBSTACLE_PLANE ||
                                 kiriTouches_CanYield(sheet, yield) };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     meeting.square = sheet->mesh.step * sheet->mesh.squares.side;
