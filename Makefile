@@ -218,10 +218,10 @@ scarce: packages-bench
 long: packages-bench
 	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting swipe toybox)
 	$(BUILD)/tests/test_meeting 5000 1000
-	$(BUILD)/tests/test_swipe 2000 1 TestSwipeStill
-	$(BUILD)/tests/test_swipe 2000 1 TestSwipeSwaying
-	$(BUILD)/tests/test_swipe 2000 1 TestSwipeBlown
-	for kind in Swaying Blown; do $(BUILD)/tests/test_swipe 4 1 "TestHold$$kind" 600 || exit 1; done
+	$(BUILD)/tests/test_swipe 2000 1 SwipeStill
+	$(BUILD)/tests/test_swipe 2000 1 SwipeSwaying
+	$(BUILD)/tests/test_swipe 2000 1 SwipeBlown
+	for kind in Swaying Blown; do $(BUILD)/tests/test_swipe 4 1 "Hold$$kind" 600 || exit 1; done
 	$(BUILD)/tests/test_long all
 	$(BUILD)/tests/test_slicing all
 	$(BUILD)/tests/test_toybox all
@@ -567,6 +567,8 @@ $(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PART
 $(BUILD)/tests/extremes: $(BUILD)/tests/extremes_main.c.o $(BUILD)/tests/extremes.c.o $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lm
+
+$(TESTS): $(BUILD)/tests/main.c.o
 
 $(BUILD)/tests/test_box2d: $(BUILD)/tests/test_box2d.cpp.o $(BOX2D_LAWS) $(BUILD)/libkiri.a
 	@echo "  $@"

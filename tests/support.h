@@ -1,4 +1,4 @@
-/* What the tests share: a seeded generator, and rectangles. */
+/* What the tests share: how tests are written, and a seeded generator. */
 #ifndef KIRI_TEST_SUPPORT_H
 #define KIRI_TEST_SUPPORT_H
 
@@ -7,7 +7,44 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #include <cmocka.h>
+
+/* Adds a test. Tests run in the order of their lines (main.c). */
+void Test_Add(const char* name, CMUnitTestFunction run, void* state, int line);
+
+/* Sets the function that runs before all tests, with the arguments of main. */
+void Test_SetUp(void (*setUp)(int count, char** words));
+
+#ifdef __cplusplus
+}
+#endif
+
+/* TEST(Name) { ... } defines a test and adds it before main starts. */
+#define TEST(name)                                                                                                     \
+    static void name##_Test(void);                                                                                     \
+    static void name##_Run(void** state)                                                                               \
+    {                                                                                                                  \
+        (void)state;                                                                                                   \
+        name##_Test();                                                                                                 \
+    }                                                                                                                  \
+    __attribute__((constructor)) static void name##_Add(void)                                                          \
+    {                                                                                                                  \
+        Test_Add(#name, name##_Run, NULL, __LINE__);                                                                   \
+    }                                                                                                                  \
+    static void name##_Test(void)
+
+/* SETUP { ... } runs before all tests, with the arguments of main: count and words. */
+#define SETUP                                                                                                          \
+    static void SetUp(int count, char** words);                                                                        \
+    __attribute__((constructor)) static void AddSetUp(void)                                                            \
+    {                                                                                                                  \
+        Test_SetUp(SetUp);                                                                                             \
+    }                                                                                                                  \
+    static void SetUp(int count, char** words)
 
 /* xorshift32; any seed but 0. */
 static inline uint32_t Random(uint32_t* seed)

@@ -83,7 +83,7 @@ static Host* Setup(Fixture* f)
     return host;
 }
 
-static void NullWorld(void** state)
+TEST(NullWorld)
 {
     float v[12] = { 0.0f };
     kiriSheetDef sheetDef = Host_SmallDef();
@@ -174,7 +174,7 @@ static void NullWorld(void** state)
     assert_string_equal(kiriWorld_GetLastError(NULL), "");
 }
 
-static void Names(void** state)
+TEST(Names)
 {
     static const char* const results[] = { "KIRI_ERROR_REPLAY", "KIRI_ERROR_DATA",     "KIRI_ERROR_BUILD",
                                            "KIRI_ERROR_LIMIT",  "KIRI_DIVERGED",       "KIRI_ERROR_MEMORY",
@@ -215,7 +215,7 @@ static void AssertModeRefused(kiriResult result, const Host* host)
 }
 
 /* In each mode of the processor that gives other bits; and a world is made again afterwards. */
-static void ModesOfFloats(void** state)
+TEST(ModesOfFloats)
 {
     static const int roundings[] = { FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
     for (int i = 0; i < 3; ++i) {
@@ -243,7 +243,7 @@ static void ModesOfFloats(void** state)
 }
 
 /* Every preset makes a sheet; other numbers make none. */
-static void Materials(void** state)
+TEST(Materials)
 {
     START_HOST(host);
     for (int32_t preset = 0; preset < KIRI_MATERIAL_COUNT; ++preset) {
@@ -260,7 +260,7 @@ static void Materials(void** state)
 
 /* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth:
    test_quality.c. */
-static void Qualities(void** state)
+TEST(Qualities)
 {
     kiriQuality quality = { 0, 0, 0, 0 }, refused = { 7, 7, 7, 7 };
     START_HOST(host);
@@ -283,7 +283,7 @@ static void Qualities(void** state)
     Host_Stop(&host);
 }
 
-static void WorldDefs(void** state)
+TEST(WorldDefs)
 {
     Host plain;
     memset(&plain, 0, sizeof(plain));
@@ -311,7 +311,7 @@ static void WorldDefs(void** state)
     }
 }
 
-static void WorldArguments(void** state)
+TEST(WorldArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -344,7 +344,7 @@ static void WorldArguments(void** state)
         assert_int_equal(made, 0);                                                                                     \
     } while (0)
 
-static void SheetDefFloats(void** state)
+TEST(SheetDefFloats)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -393,7 +393,7 @@ static void SheetDefFloats(void** state)
     Host_Stop(host);
 }
 
-static void SheetDefInts(void** state)
+TEST(SheetDefInts)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -436,7 +436,7 @@ static void SheetDefInts(void** state)
 }
 
 /* A program that forgets a kiriDefault function gets a code and a line that names the function. */
-static void ZeroedDefs(void** state)
+TEST(ZeroedDefs)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -470,7 +470,7 @@ static void ZeroedDefs(void** state)
     Host_Stop(host);
 }
 
-static void Meshes(void** state)
+TEST(Meshes)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -514,7 +514,7 @@ static void Meshes(void** state)
     Host_Stop(host);
 }
 
-static void FillRectangle(void** state)
+TEST(FillRectangle)
 {
     float positions[18];
     int32_t indices[24];
@@ -533,7 +533,7 @@ static void FillRectangle(void** state)
 }
 
 /* It is the sheet that kiriFillRectangle and kiriCreateSheet make, or none, and leaves no memory behind. */
-static void CreateRectangle(void** state)
+TEST(CreateRectangle)
 {
     Host hosts[2];
     kiriSheet sheets[2];
@@ -613,7 +613,7 @@ static Dead MakeDead(Fixture* f)
     return dead;
 }
 
-static void Ids(void** state)
+TEST(Ids)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -684,7 +684,7 @@ static void Ids(void** state)
     Host_Stop(host);
 }
 
-static void SheetArguments(void** state)
+TEST(SheetArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -737,7 +737,7 @@ static void SheetArguments(void** state)
     Host_Stop(host);
 }
 
-static void CutArguments(void** state)
+TEST(CutArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -765,7 +765,7 @@ static void CutArguments(void** state)
     Host_Stop(host);
 }
 
-static void FrameArguments(void** state)
+TEST(FrameArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -797,7 +797,7 @@ static void FrameArguments(void** state)
     Host_Stop(host);
 }
 
-static void PinArguments(void** state)
+TEST(PinArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -839,7 +839,7 @@ static void PinArguments(void** state)
 }
 
 /* Lines that are none, or meet nothing, whoever asks for them. */
-static void LineArguments(void** state)
+TEST(LineArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -874,7 +874,7 @@ static void LineArguments(void** state)
     Host_Stop(host);
 }
 
-static void PoseArguments(void** state)
+TEST(PoseArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -896,7 +896,7 @@ static void PoseArguments(void** state)
     Host_Stop(host);
 }
 
-static void LoadArguments(void** state)
+TEST(LoadArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -918,7 +918,7 @@ static void LoadArguments(void** state)
     Host_Stop(host);
 }
 
-static void ShortIndicesNeedFewVertices(void** state)
+TEST(ShortIndicesNeedFewVertices)
 {
     enum { SIDE = 256 };
     uint16_t indices[3];
@@ -931,7 +931,7 @@ static void ShortIndicesNeedFewVertices(void** state)
     Host_Stop(&host);
 }
 
-static void ContactArguments(void** state)
+TEST(ContactArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -973,7 +973,7 @@ static void ContactArguments(void** state)
 }
 
 /* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
-static void HugeValues(void** state)
+TEST(HugeValues)
 {
     for (int what = 0; what < 8; ++what) {
         Fixture f;
@@ -1092,7 +1092,7 @@ static void CopyEvery(int32_t every)
     Host_Stop(host);
 }
 
-static void Copies(void** state)
+TEST(Copies)
 {
     CopyEvery(1);
     CopyEvery(7);
@@ -1100,7 +1100,7 @@ static void Copies(void** state)
 }
 
 /* A line names the function, the argument, the member or index, the value, and what it should be. */
-static void LinesNameArguments(void** state)
+TEST(LinesNameArguments)
 {
     Fixture f;
     Host* host = Setup(&f);
@@ -1139,37 +1139,4 @@ static void LinesNameArguments(void** state)
     SAYS(kiriCreateRectangle(w, 1.0f, 1.0f, 1, 1, &def, &id),
          "kiriCreateRectangle: def.accuracy is 2.5e-5, not within 1e-4 and 1 (KIRI_ERROR_ARGUMENT)");
     Host_Stop(host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(NullWorld),
-        cmocka_unit_test(Names),
-        cmocka_unit_test(WorldDefs),
-        cmocka_unit_test(ModesOfFloats),
-        cmocka_unit_test(Materials),
-        cmocka_unit_test(Qualities),
-        cmocka_unit_test(WorldArguments),
-        cmocka_unit_test(SheetDefFloats),
-        cmocka_unit_test(SheetDefInts),
-        cmocka_unit_test(ZeroedDefs),
-        cmocka_unit_test(LinesNameArguments),
-        cmocka_unit_test(Meshes),
-        cmocka_unit_test(FillRectangle),
-        cmocka_unit_test(CreateRectangle),
-        cmocka_unit_test(Ids),
-        cmocka_unit_test(SheetArguments),
-        cmocka_unit_test(CutArguments),
-        cmocka_unit_test(FrameArguments),
-        cmocka_unit_test(PinArguments),
-        cmocka_unit_test(LineArguments),
-        cmocka_unit_test(PoseArguments),
-        cmocka_unit_test(LoadArguments),
-        cmocka_unit_test(ShortIndicesNeedFewVertices),
-        cmocka_unit_test(ContactArguments),
-        cmocka_unit_test(HugeValues),
-        cmocka_unit_test(Copies),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ static uint64_t HashOfText(const char* text)
 }
 
 /* The published values of FNV-1a. */
-static void HashesAreFnv(void** state)
+TEST(HashesAreFnv)
 {
     assert_true(HashOfText("") == UINT64_C(0xcbf29ce484222325));
     assert_true(HashOfText("a") == UINT64_C(0xaf63dc4c8601ec8c));
@@ -94,7 +94,7 @@ static int32_t KeyOf(int pattern, int32_t i, int32_t count, uint32_t* seed)
     }
 }
 
-static void SortsAnything(void** state)
+TEST(SortsAnything)
 {
     const int32_t counts[] = { 0, 1, 2, 3, 10, 24, 25, 26, 100, 1000, 30000 };
     uint32_t seed = 23;
@@ -123,7 +123,7 @@ static void SortsAnything(void** state)
 }
 
 /* Each number as often as it was there, from the lowest on. */
-static void SortsNumbers(void** state)
+TEST(SortsNumbers)
 {
     const int32_t counts[] = { 0, 1, 2, 100, 5000 }, mosts[] = { 0, 1, 2047, 2048, 5000000, INT32_MAX };
     uint32_t seed = 31;
@@ -170,7 +170,7 @@ static void CheckRotation(kiriMat3 r, double tolerance)
     assert_true(fabs(Determinant(r) - 1.0) < tolerance);
 }
 
-static void CayleyRotates(void** state)
+TEST(CayleyRotates)
 {
     uint32_t seed = 12345;
     for (int i = 0; i < 1000; ++i) {
@@ -237,7 +237,7 @@ static kiriMat3 Stretched(uint32_t* seed, double a, double b, double c)
     return kiriMat3_MulMat(q, kiriMat3_MulMat(d, p));
 }
 
-static void RotationIsPolarFactor(void** state)
+TEST(RotationIsPolarFactor)
 {
     uint32_t seed = 777;
     for (int i = 0; i < 200; ++i) {
@@ -253,7 +253,7 @@ static void RotationIsPolarFactor(void** state)
     }
 }
 
-static void RotationOfSingular(void** state)
+TEST(RotationOfSingular)
 {
     uint32_t seed = 4242;
     const kiriVec3 zero = { 0.0, 0.0, 0.0 }, x = { 1.0, 0.0, 0.0 }, z = { 0.0, 0.0, 1.0 };
@@ -307,7 +307,7 @@ static kiriVec2 RandomPlace(uint32_t* seed)
     return kiriVec2_Make(x, RandomBetween(seed, -1.0, 2.0));
 }
 
-static void MomentsOfTriangles(void** state)
+TEST(MomentsOfTriangles)
 {
     uint32_t seed = 31;
     for (int i = 0; i < 50; ++i) {
@@ -367,7 +367,7 @@ static const double extents[] = { 1.0, 0.1, 3.0e-5, 7.3e4, 1024.0 };
 enum { EXTENTS = sizeof(extents) / sizeof(extents[0]), PARTS = 3000 };
 
 /* Added in one order, added in another, and with others in between that go again: the very same bits. */
-static void OrderDoesNotMatter(void** state)
+TEST(OrderDoesNotMatter)
 {
     uint32_t seed = 8;
     for (int e = 0; e < EXTENTS; ++e) {
@@ -392,7 +392,7 @@ static void OrderDoesNotMatter(void** state)
     }
 }
 
-static void TakingAwayLeavesZero(void** state)
+TEST(TakingAwayLeavesZero)
 {
     uint32_t seed = 81;
     const kiriTally zero = { 0 };
@@ -416,7 +416,7 @@ static void TakingAwayLeavesZero(void** state)
 
 /* A region of one sliver, in the grid's far corner and near its origin, left over of much more. Near the origin its
    second moments are smaller by eight decades. */
-static void SliversKeepTheirDigits(void** state)
+TEST(SliversKeepTheirDigits)
 {
     for (int e = 0; e < EXTENTS; ++e) {
         double square = extents[e] / 4096.0;
@@ -446,7 +446,7 @@ typedef struct Bag {
 KIRI_TABLE(BagTable, Bag, { KIRI_ITEMS(2, words) })
 
 /* Counts that no bytes can have ask for no memory. */
-static void CountsAreLimited(void** state)
+TEST(CountsAreLimited)
 {
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     Bag bag = { { NULL, 0, 0 } };
@@ -498,7 +498,7 @@ static uint64_t HashOfColumn(Column column)
 }
 
 /* It is saved, checked, hashed and restored. */
-static void NewFieldIsOneLine(void** state)
+TEST(NewFieldIsOneLine)
 {
     const Column fine = { 0.5, 6, 4 }, other = { 0.5, 6, 5 };
     const Column bad[] = { { HUGE_VAL, 6, 4 }, { 0.5, 7, 4 }, { 0.5, -1, 4 }, { 0.5, 6, 2 }, { 0.5, 6, 6 } };
@@ -594,7 +594,7 @@ static void CheckLanesOfNormals(const Patchwork* work, const float* positions)
 }
 
 /* Skinning and normals: plain C and the lanes of the machine give the same bits, in ranges too. */
-static void BitsAreThoseOfPlainC(void** state)
+TEST(BitsAreThoseOfPlainC)
 {
     static const double sizes[] = { 1.0, 1e-12, 1e12 };
     for (uint32_t seed = 1; seed <= 60; ++seed) {
@@ -612,24 +612,4 @@ static void BitsAreThoseOfPlainC(void** state)
         CheckLanesOfNormals(&work, positions);
         kiriMemory_FreeAll(&work.memory);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(HashesAreFnv),
-        cmocka_unit_test(SortsAnything),
-        cmocka_unit_test(SortsNumbers),
-        cmocka_unit_test(CayleyRotates),
-        cmocka_unit_test(RotationIsPolarFactor),
-        cmocka_unit_test(RotationOfSingular),
-        cmocka_unit_test(MomentsOfTriangles),
-        cmocka_unit_test(OrderDoesNotMatter),
-        cmocka_unit_test(TakingAwayLeavesZero),
-        cmocka_unit_test(SliversKeepTheirDigits),
-        cmocka_unit_test(CountsAreLimited),
-        cmocka_unit_test(NewFieldIsOneLine),
-        cmocka_unit_test(BitsAreThoseOfPlainC),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -160,7 +160,7 @@ static void CheckSwipe(const Swipe* swipe)
 }
 
 /* Once across, in one step or many, part it, each time. */
-static void TestSwipesPart(void** state)
+TEST(SwipesPart)
 {
     static const int32_t steps[4] = { 1, 3, 20, 90 };
     for (int32_t motion = 0; motion < MOTIONS; ++motion) {
@@ -218,19 +218,19 @@ static int32_t CountDiscs(int32_t count, int32_t held)
     return discs;
 }
 
-static void TestCirclesByHand(void** state)
+TEST(CirclesByHand)
 {
     assert_int_equal(CountDiscs(36, 0), 36);
 }
 
 /* A blade that waits where the circle begins closes it as well. */
-static void TestCirclesAfterWaiting(void** state)
+TEST(CirclesAfterWaiting)
 {
     assert_int_equal(CountDiscs(12, 10), 12);
 }
 
 /* A loop that ends where it began, to the bit, is closed. */
-static void TestClosedLoop(void** state)
+TEST(ClosedLoop)
 {
     static const double corners[5][2] = { { 0.3, 0.3 }, { 0.7, 0.32 }, { 0.68, 0.7 }, { 0.31, 0.69 }, { 0.3, 0.3 } };
     Stage stage;
@@ -247,7 +247,7 @@ static void TestClosedLoop(void** state)
 }
 
 /* A blade that stands in a sheet at rest does nothing. */
-static void TestStandsStill(void** state)
+TEST(StandsStill)
 {
     Stage stage;
     Stage_StartFlat(&stage, 16, 8);
@@ -268,7 +268,7 @@ static void TestStandsStill(void** state)
 }
 
 /* Out over a border, back in, and out again: each time it parts. */
-static void TestLeavesAndComesBack(void** state)
+TEST(LeavesAndComesBack)
 {
     Stage stage;
     Stage_StartFlat(&stage, 16, 8);
@@ -287,7 +287,7 @@ static void TestLeavesAndComesBack(void** state)
 }
 
 /* An edge that ends above the sheet for half of its way cuts the other half. */
-static void TestShortEdge(void** state)
+TEST(ShortEdge)
 {
     Stage stage;
     double longest = 0.0;
@@ -311,7 +311,7 @@ static void TestShortEdge(void** state)
 }
 
 /* An edge that turns while it moves, fast. */
-static void TestTurningEdge(void** state)
+TEST(TurningEdge)
 {
     for (int steps = 1; steps < 12; steps += 5) {
         Stage stage;
@@ -360,7 +360,7 @@ static void StartFolded(Stage* stage)
 }
 
 /* Through both layers beside each other; and over the fold, from the open side or from the fold's. */
-static void TestFold(void** state)
+TEST(Fold)
 {
     static const double ways[3][4] = { { 0.2, -0.2, 0.23, 1.2 }, { -0.2, 0.5, 0.8, 0.52 }, { 0.8, 0.5, -0.2, 0.53 } };
     for (int k = 0; k < 9; ++k) {
@@ -392,7 +392,7 @@ static void Push(const Stage* stage, int32_t piece, float y, float z)
 }
 
 /* Three strips that drift apart while the blade goes through them. */
-static void TestSeveralPieces(void** state)
+TEST(SeveralPieces)
 {
     for (int steps = 1; steps <= 40; steps += 13) {
         static const float lines[2][4] = { { 0.35f, -0.1f, 0.35f, 1.1f }, { 0.7f, -0.1f, 0.7f, 1.1f } };
@@ -415,7 +415,7 @@ static void TestSeveralPieces(void** state)
 }
 
 /* One blade for all sheets. */
-static void TestAllSheets(void** state)
+TEST(AllSheets)
 {
     Stage stage;
     kiriSheet others[2];
@@ -438,7 +438,7 @@ static void TestAllSheets(void** state)
 /* ---- Sheets that move ---- */
 
 /* A blade that falls with the sheet and crosses it meanwhile leaves one straight line, without hairs at its steps. */
-static void TestFallsAlong(void** state)
+TEST(FallsAlong)
 {
     Stage stage;
     kiriSheetDef def = Def(16, 8);
@@ -468,7 +468,7 @@ static void TestFallsAlong(void** state)
 }
 
 /* A piece gets a sheet of its own while the blade is in it: a blade for all goes on in it. */
-static void TestDetached(void** state)
+TEST(Detached)
 {
     static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.3f };
     for (int lower = 0; lower < 2; ++lower) {
@@ -496,7 +496,7 @@ static void TestDetached(void** state)
 
 /* In the tick of the cut the part that falls is apart from the part that is held, by what it falls in it: 3/4 g dt^2 in
    two steps. */
-static void TestOpensAtOnce(void** state)
+TEST(OpensAtOnce)
 {
     const double dt = 1.0 / 60.0, fallen = 0.75 * 9.81 * dt * dt;
     Stage stage;
@@ -530,7 +530,7 @@ static void TestOpensAtOnce(void** state)
 /* ---- Calls ---- */
 
 /* What is refused, and that it changes nothing. */
-static void TestRefusals(void** state)
+TEST(Refusals)
 {
     Stage stage;
     kiriBlade blade = 0;
@@ -566,7 +566,7 @@ static void TestRefusals(void** state)
 }
 
 /* Edges of any size, and of none. */
-static void TestExtremeEdges(void** state)
+TEST(ExtremeEdges)
 {
     static const float edges[8][6] = {
         { 0.5f, -1.0f, 0.0f, 0.5f, 2.0f, 0.0f },   { 3e38f, -3e38f, 3e38f, -3e38f, 3e38f, -3e38f },
@@ -602,7 +602,7 @@ static kiriResult Call(Stage* stage, int k)
 }
 
 /* Rays that somebody casts in between make no difference, though they make boxes. */
-static void TestRaysMakeNoDifference(void** state)
+TEST(RaysMakeNoDifference)
 {
     uint64_t hashes[2];
     for (int asks = 0; asks < 2; ++asks) {
@@ -623,7 +623,7 @@ static void TestRaysMakeNoDifference(void** state)
 }
 
 /* A ray goes straight through a sheet that falls: two pieces, and no crumb. */
-static void TestFallingSheets(void** state)
+TEST(FallingSheets)
 {
     for (int32_t k = 0; k < 120; ++k) {
         kiriWorldDef worldDef;
@@ -651,29 +651,4 @@ static void TestFallingSheets(void** state)
         assert_int_equal(counts.pieces, 2);
         kiriDestroyWorld(world);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSwipesPart),
-        cmocka_unit_test(TestCirclesByHand),
-        cmocka_unit_test(TestCirclesAfterWaiting),
-        cmocka_unit_test(TestFallingSheets),
-        cmocka_unit_test(TestClosedLoop),
-        cmocka_unit_test(TestStandsStill),
-        cmocka_unit_test(TestLeavesAndComesBack),
-        cmocka_unit_test(TestShortEdge),
-        cmocka_unit_test(TestTurningEdge),
-        cmocka_unit_test(TestFold),
-        cmocka_unit_test(TestSeveralPieces),
-        cmocka_unit_test(TestAllSheets),
-        cmocka_unit_test(TestFallsAlong),
-        cmocka_unit_test(TestDetached),
-        cmocka_unit_test(TestOpensAtOnce),
-        cmocka_unit_test(TestRefusals),
-        cmocka_unit_test(TestExtremeEdges),
-        cmocka_unit_test(TestRaysMakeNoDifference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

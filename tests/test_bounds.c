@@ -59,7 +59,7 @@ static bool CheckRay(const Host* host, kiriSheet sheet, const float origin[3], c
 
 /* ---- At random ---- */
 
-static void TestRays(void** state)
+TEST(Rays)
 {
     uint32_t seed = 17;
     int32_t hits = 0, rays = 0;
@@ -109,7 +109,7 @@ static kiriHit Cast(const Host* host, kiriSheet sheet, float x, float y)
 
 /* A sheet has no boxes before somebody asks, has them from the next tick on, and gives them back when nobody asks any
    more. */
-static void TestWhoAsks(void** state)
+TEST(WhoAsks)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -136,7 +136,7 @@ static void TestWhoAsks(void** state)
 }
 
 /* The sheet that a ray meets first, of three above each other, with and without boxes. */
-static void TestAllSheets(void** state)
+TEST(AllSheets)
 {
     kiriSheet sheets[3], met;
     kiriHit hit;
@@ -167,14 +167,4 @@ static void TestAllSheets(void** state)
         OK(Host_Tick(&host, 0.01f, 1));
     }
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestRays),
-        cmocka_unit_test(TestWhoAsks),
-        cmocka_unit_test(TestAllSheets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

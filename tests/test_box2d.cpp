@@ -1,18 +1,11 @@
 /* Sheets among bodies of Box2D: samples/box2d. */
 #include "box2d_laws.h"
 #include "box2d_rig.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-extern "C" {
-#include <cmocka.h>
-}
+#include "support.h"
 
 #define CHECK(condition) assert_true(condition)
 
-static void TestMomentumOfHits(void**)
+TEST(MomentumOfHits)
 {
     for (double ratio : { 1e-3, 1.0, 1e3 }) {
         for (bool isFlat : { false, true }) {
@@ -24,7 +17,7 @@ static void TestMomentumOfHits(void**)
     }
 }
 
-static void TestMomentumOfFalls(void**)
+TEST(MomentumOfFalls)
 {
     for (double ratio : { 1e-3, 1.0, 1e3 }) {
         FallOutcome fall = MeasureFall(ratio, true);
@@ -36,7 +29,7 @@ static void TestMomentumOfFalls(void**)
 
 /* A cloth's own motion, and what holds up a body that many of its points are in, could throw one so light. Falls are
    chaotic: from some of these heights it lay still, from others it left at 80 m/s. */
-static void TestLightCratesAreNotThrown(void**)
+TEST(LightCratesAreNotThrown)
 {
     for (double ratio : { 1e-3, 1e-2 }) {
         for (double start : { 0.400, 0.401, 0.404, 0.405, 0.406 }) {
@@ -48,7 +41,7 @@ static void TestLightCratesAreNotThrown(void**)
 }
 
 /* What pins of a cloth bear, and what the crate on it feels, is what changes their momentum. */
-static void TestMomentumOfFallsOnCloth(void**)
+TEST(MomentumOfFallsOnCloth)
 {
     for (double ratio : { 1e-3, 1.0, 1e3 }) {
         for (double start : { 0.400, 0.402 }) {
@@ -58,7 +51,7 @@ static void TestMomentumOfFallsOnCloth(void**)
 }
 
 /* What is too heavy for the systems of a tick stretches the cloth by more than it should, but does not fall through. */
-static void TestClothHoldsHeavyCrates(void**)
+TEST(ClothHoldsHeavyCrates)
 {
     for (double ratio : { 1.0, 10.0, 1e2, 1e3 }) {
         FallOutcome fall = MeasureFall(ratio, false);
@@ -67,7 +60,7 @@ static void TestClothHoldsHeavyCrates(void**)
     }
 }
 
-static void TestFriction(void**)
+TEST(Friction)
 {
     const double law = std::atan(0.5) * 57.29578;
     for (bool isFlat : { false, true }) {
@@ -75,7 +68,7 @@ static void TestFriction(void**)
     }
 }
 
-static void TestMotors(void**)
+TEST(Motors)
 {
     for (bool isFlat : { false, true }) {
         assert_float_equal(MeasureBelt(1.0, isFlat), 1.0, 0.01);
@@ -85,7 +78,7 @@ static void TestMotors(void**)
     assert_float_equal(MeasurePull(), 1.0, 0.05);
 }
 
-static void TestShapes(void**)
+TEST(Shapes)
 {
     for (int i = 0; i < LAW_SHAPE_COUNT; ++i) {
         /* What drapes over an edge, a thin wall, comes to lie through it at its ends. */
@@ -112,7 +105,7 @@ static uint32_t GroupOf(b2Fixture& fixture, void*)
     return fixture.GetFilterData().categoryBits;
 }
 
-static void TestFilters(void**)
+TEST(Filters)
 {
     Rig plain;
     plain.AddBox(0.0f, -0.1f, 2.0f, 0.2f, 0.0f, 0.5f);
@@ -135,7 +128,7 @@ static void TestFilters(void**)
 }
 
 /* A kinematic body lifts a sheet. */
-static void TestLift(void**)
+TEST(Lift)
 {
     Rig rig;
     b2Body* lift = rig.AddBox(0.0f, -0.1f, 2.0f, 0.2f, 0.0f, 0.5f);
@@ -151,7 +144,7 @@ static void TestLift(void**)
 }
 
 /* A crate falls asleep on a rope, and wakes when that is cut. */
-static void TestSleep(void**)
+TEST(Sleep)
 {
     Rig rig;
     kiriSheetDef def = StiffDef(2.0f);
@@ -189,7 +182,7 @@ static void TestSleep(void**)
 }
 
 /* What is forgotten is not touched again, nor looked at. */
-static void TestForget(void**)
+TEST(Forget)
 {
     Rig rig;
     b2Body* floor = rig.AddBox(0.0f, -0.1f, 2.0f, 0.2f, 0.0f, 0.5f);
@@ -211,7 +204,7 @@ static void TestForget(void**)
 }
 
 /* Twice the same, in everything. */
-static void TestSame(void**)
+TEST(Same)
 {
     uint64_t hashes[2];
     b2Vec2 places[2];
@@ -233,24 +226,4 @@ static void TestSame(void**)
         places[run] = crates[3]->GetPosition();
     }
     CHECK(hashes[0] == hashes[1] && places[0] == places[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMomentumOfHits),
-        cmocka_unit_test(TestMomentumOfFalls),
-        cmocka_unit_test(TestMomentumOfFallsOnCloth),
-        cmocka_unit_test(TestLightCratesAreNotThrown),
-        cmocka_unit_test(TestClothHoldsHeavyCrates),
-        cmocka_unit_test(TestFriction),
-        cmocka_unit_test(TestMotors),
-        cmocka_unit_test(TestShapes),
-        cmocka_unit_test(TestFilters),
-        cmocka_unit_test(TestLift),
-        cmocka_unit_test(TestSleep),
-        cmocka_unit_test(TestForget),
-        cmocka_unit_test(TestSame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

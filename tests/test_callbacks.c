@@ -47,7 +47,7 @@ static const Function functions[] = { EVERY_CALL(CHANGING_FUNCTION, READING_FUNC
 enum { FUNCTIONS = sizeof(functions) / sizeof(*functions) };
 
 /* The list has each function that the header declares with a world, with const or without. */
-static void TestListIsWhole(void** state)
+TEST(ListIsWhole)
 {
     char line[512];
     int32_t found = 0;
@@ -218,7 +218,7 @@ static uint64_t Run(Caller* caller, bool isArmed, int32_t* callbacks)
     return Host_Hash(&caller->host);
 }
 
-static void TestChanging(void** state)
+TEST(Changing)
 {
     static Caller callers[2];
     int32_t callbacks;
@@ -247,7 +247,7 @@ static void TestChanging(void** state)
     }
 }
 
-static void TestReading(void** state)
+TEST(Reading)
 {
     static Caller caller;
     int32_t callbacks, count;
@@ -284,7 +284,7 @@ static double TickOther(void* user)
     return 0.0;
 }
 
-static void TestOtherWorld(void** state)
+TEST(OtherWorld)
 {
     Host hosts[2];
     Host_Start(&hosts[0]);
@@ -297,15 +297,4 @@ static void TestOtherWorld(void** state)
     OK(kiriWorld_Tick(hosts[1].world, 1.0f / 60.0f, 1));
     Host_Stop(&hosts[1]);
     Host_Stop(&hosts[0]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestListIsWhole),
-        cmocka_unit_test(TestChanging),
-        cmocka_unit_test(TestReading),
-        cmocka_unit_test(TestOtherWorld),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ static double MeanSpeed(const Touching* t, int axis)
 
 /* A degree below the angle of friction it stands still, to the last micrometre, and falls asleep. A degree above it
    slides as a block does. */
-static void TestFrictionAngle(void** state)
+TEST(FrictionAngle)
 {
     static const double frictions[] = { 0.2, 0.5, 1.0 };
     for (int k = 0; k < 12; ++k) {
@@ -55,7 +55,7 @@ static void TestFrictionAngle(void** state)
     }
 }
 
-static void TestStopping(void** state)
+TEST(Stopping)
 {
     for (int k = 0; k < 4; ++k) {
         TouchingDef def = Touching_Def(k % 2, 5);
@@ -75,7 +75,7 @@ static void TestStopping(void** state)
 }
 
 /* The floor of a conveyor moves on, and where it is does not change. */
-static void TestConveyor(void** state)
+TEST(Conveyor)
 {
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, 5);
     Plane belt = Touching_Floor(0.3);
@@ -94,7 +94,7 @@ static void TestConveyor(void** state)
 }
 
 /* A lift carries the sheet up and along, and slows down no faster than it falls. */
-static void TestLift(void** state)
+TEST(Lift)
 {
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
     Plane floor = Touching_Floor(0.3);
@@ -122,7 +122,7 @@ static double OwnTurning(const kiriTotals* t)
 
 /* A sheet that drops, slides and turns: impulses are its change of momentum but for gravity, to rounding, and it turns
    by their moments. */
-static void TestSumsOfImpulses(void** state)
+TEST(SumsOfImpulses)
 {
     for (int k = 0; k < 6; ++k) {
         double gravity[3];
@@ -154,7 +154,7 @@ static void TestSumsOfImpulses(void** state)
 }
 
 /* Where it lies at rest, and where a hand lets it down on the floor: floor and hand bear the weight together. */
-static void TestRestAndHolds(void** state)
+TEST(RestAndHolds)
 {
     for (int held = 0; held < 2; ++held) {
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
@@ -187,7 +187,7 @@ static void TestRestAndHolds(void** state)
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
 /* A sheet meets a free body: they go on together, momentum stays to rounding, and energy never grows. */
-static void TestMassRatios(void** state)
+TEST(MassRatios)
 {
     for (int k = 0; k < 14; ++k) {
         double ratio = pow(10.0, k % 7 - 3);
@@ -216,7 +216,7 @@ static void TestMassRatios(void** state)
 
 /* A crate drops on a sheet that lies on the floor. Neither is thrown up, the crate does not come through, and it
    rests. */
-static void TestCrates(void** state)
+TEST(Crates)
 {
     static kiriContact contacts[2 * TOUCHING_MOST_POINTS];
     for (int k = 0; k < 7; ++k) {
@@ -246,7 +246,7 @@ static void TestCrates(void** state)
 
 /* ---- Depth and speed --------------------------------------------------------------------------------------------- */
 
-static void TestLoads(void** state)
+TEST(Loads)
 {
     for (int k = 0; k < 8; ++k) {
         double load = pow(10.0, k % 4);
@@ -265,7 +265,7 @@ static void TestLoads(void** state)
 }
 
 /* At 100 m/s in the way of a wall 1 cm thick, by any step. */
-static void TestFast(void** state)
+TEST(Fast)
 {
     for (int k = 0; k < 12; ++k) {
         TouchingDef def = Touching_Def(k % 2, k / 2 % 2 ? 5 : 1);
@@ -285,7 +285,7 @@ static void TestFast(void** state)
     }
 }
 
-static void TestPushSpeed(void** state)
+TEST(PushSpeed)
 {
     static const double speeds[] = { 0.0, 0.25, 2.0 };
     for (int k = 0; k < 3; ++k) {
@@ -321,7 +321,7 @@ static int32_t Corners(kiriContact contacts[4], const float velocity[3])
     return 4;
 }
 
-static void TestRestPoints(void** state)
+TEST(RestPoints)
 {
     static const float still[3] = { 0.0f, 0.0f, 0.0f };
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
@@ -379,7 +379,7 @@ static void LieDown(Touching* t, Plane* floor)
 }
 
 /* A sheet that sleeps goes on to press. What moves below it, or goes, wakes it. */
-static void TestSleep(void** state)
+TEST(Sleep)
 {
     for (int k = 0; k < 4; ++k) {
         Plane floor = Touching_Floor(0.5);
@@ -405,7 +405,7 @@ static void TestSleep(void** state)
 }
 
 /* Nothing of contact is left where there is none: forces are of the last tick. */
-static void TestForcesAreOfTheLastTick(void** state)
+TEST(ForcesAreOfTheLastTick)
 {
     Plane floor = Touching_Floor(0.5);
     Touching t;
@@ -423,7 +423,7 @@ static void TestForcesAreOfTheLastTick(void** state)
 }
 
 /* A planar sheet that stands on a floor in its plane. */
-static void TestPlanar(void** state)
+TEST(Planar)
 {
     for (int model = 0; model < 2; ++model) {
         TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
@@ -443,19 +443,4 @@ static void TestPlanar(void** state)
         AssertWithin(MeanSpeed(&t, 0), 0.0, 1e-3, "it stopped");
         Touching_Stop(&t);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestFrictionAngle),  cmocka_unit_test(TestStopping),
-        cmocka_unit_test(TestConveyor),       cmocka_unit_test(TestLift),
-        cmocka_unit_test(TestSumsOfImpulses), cmocka_unit_test(TestRestAndHolds),
-        cmocka_unit_test(TestMassRatios),     cmocka_unit_test(TestCrates),
-        cmocka_unit_test(TestLoads),          cmocka_unit_test(TestFast),
-        cmocka_unit_test(TestPushSpeed),      cmocka_unit_test(TestRestPoints),
-        cmocka_unit_test(TestSleep),          cmocka_unit_test(TestForcesAreOfTheLastTick),
-        cmocka_unit_test(TestPlanar),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

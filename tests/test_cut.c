@@ -174,7 +174,7 @@ static void CheckCase(const Case* c, bool isParted)
     Host_Stop(&host);
 }
 
-static void HandMadeCases(void** state)
+TEST(HandMadeCases)
 {
     for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); ++k) {
         CheckCase(&cases[k], false);
@@ -196,7 +196,7 @@ static kiriResult AddLoose(Host* host, const float* corners, int32_t triangles, 
 }
 
 /* The blade only touches the sharp corner; it must not be led along a side. */
-static void TouchesSharpCorners(void** state)
+TEST(TouchesSharpCorners)
 {
     static const float triangles[2][6] = { { 0, 0, 4, -1, 4, 0 }, { 0, 0, 4, 0, 4, 1 } };
     for (int up = 0; up < 2; ++up) {
@@ -211,7 +211,7 @@ static void TouchesSharpCorners(void** state)
 }
 
 /* A corner in the middle of another part's side: the blade goes on from part to part. */
-static void CutsThroughSplitSides(void** state)
+TEST(CutsThroughSplitSides)
 {
     static const float positions[] = { 0, 0, 1, 0, 1, 2, 0, 2, 1, 0, 2, 0, 2, 1, 1, 1, 2, 2, 1, 2 };
     static const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 7, 6, 8, 7, 8, 9 };
@@ -237,7 +237,7 @@ static void CutsThroughSplitSides(void** state)
 /* Two squares of few lattice steps, each of two triangles, and one that goes far up. Three corners are moved by up to
    four eighths of a square, so triangles lie on each other by as much as floats are given for rounding. Blades that go
    along their edges make none twice. */
-static void MakesNoEdgeTwice(void** state)
+TEST(MakesNoEdgeTwice)
 {
     static const float eighths[] = { 0, 0, 8, 0, 8, 8, 0, 0, 8, 8, 0, 8, 8, 0, 16, 0, 8, 8, 16, 0, 16, 8, 8, 8 };
     uint32_t seed = 77;
@@ -274,7 +274,7 @@ static void MakesNoEdgeTwice(void** state)
 
 /* Blades at a slanted side, with a snap distance of one lattice step, do not pull the side along: the validator finds
    vertices that are not in their source triangles. */
-static void PullsNoOutlineAlong(void** state)
+TEST(PullsNoOutlineAlong)
 {
     static const float corners[24] = { 0,    0, 2048, 0,          2048, 2048, 0,    0, 2048, 2048, 0,    1792,
                                        2048, 0, 4096, 536870912,  2048, 2048, 4096, 0, 4096, 2048, 2048, 2048 };
@@ -401,7 +401,7 @@ static float Near(uint32_t* seed, float last, double reach)
     return (float)(x < -3.0 ? -3.0 : x > 19.0 ? 19.0 : x);
 }
 
-static void LipsFollowTheBlade(void** state)
+TEST(LipsFollowTheBlade)
 {
     static const double snaps[] = { 1.6e-5, 1.6e-3, 0.16 };
     for (uint32_t round = 0; round < 12; ++round) {
@@ -434,7 +434,7 @@ static void LipsFollowTheBlade(void** state)
 }
 
 /* A row of vertices at a small angle must not lead the blade away. */
-static void DoesNotDrift(void** state)
+TEST(DoesNotDrift)
 {
     static const float line[4] = { 0.0f, 1.0f, 256.0f, 1.6f };
     kiriSheet sheet;
@@ -474,9 +474,8 @@ static void DrawKnot(uint32_t* seed, bool isSpiral, int32_t count, float* points
 }
 
 /* Lines beside each other do not make more vertices each time: the cost of a knot is proportional to its points. */
-static void KnotsEnd(void** state)
+TEST(KnotsEnd)
 {
-    (void)state;
     enum { MOST = 4000, ITEMS = 10000 };
     static float points[2 * MOST];
     const kiriBudget budget = { ITEMS, 0, 0, 0 };
@@ -501,15 +500,4 @@ static void KnotsEnd(void** state)
         assert_true(Host_Counts(&host, sheet).vertices <= 2000 + (isSpiral ? 6 : 20) * count);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(HandMadeCases),    cmocka_unit_test(TouchesSharpCorners),
-        cmocka_unit_test(CutsThroughSplitSides), cmocka_unit_test(MakesNoEdgeTwice),
-        cmocka_unit_test(PullsNoOutlineAlong),
-        cmocka_unit_test(LipsFollowTheBlade), cmocka_unit_test(DoesNotDrift), cmocka_unit_test(KnotsEnd),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,7 +137,7 @@ static void CountEdges(const kiriMesh* mesh, int32_t* inner, int32_t* border)
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
-static void TestCounts(void** state)
+TEST(Counts)
 {
     Stage stage;
     Begin(&stage);
@@ -194,7 +194,7 @@ static float DistanceTo(const kiriDrawVertex* vertex, const float point[3])
     return sqrtf(sum);
 }
 
-static void TestPlaces(void** state)
+TEST(Places)
 {
     Stage stage;
     Begin(&stage);
@@ -239,7 +239,7 @@ static void TestPlaces(void** state)
     End(&stage);
 }
 
-static void TestBlades(void** state)
+TEST(Blades)
 {
     Stage stage;
     Begin(&stage);
@@ -258,7 +258,7 @@ static void TestBlades(void** state)
 }
 
 /* While a cut waits for its budget, and for pieces that are destroyed meanwhile: what is seen is drawn. */
-static void TestWork(void** state)
+TEST(Work)
 {
     Stage stage;
     Begin(&stage);
@@ -302,7 +302,7 @@ static void AddShape(Host* host, int32_t type, float height)
     OK(kiriCreateObstacle(host->world, &def, &made));
 }
 
-static void TestShapes(void** state)
+TEST(Shapes)
 {
     static const int32_t lines[6] = { 5, 96, 132, 12, 68, 9 }; /* by type */
     int32_t all = 0;
@@ -322,7 +322,7 @@ static void TestShapes(void** state)
     Host_Stop(&host);
 }
 
-static void TestOfOneSheet(void** state)
+TEST(OfOneSheet)
 {
     Stage stage;
     Begin(&stage);
@@ -337,7 +337,7 @@ static void TestOfOneSheet(void** state)
     End(&stage);
 }
 
-static void TestFaults(void** state)
+TEST(Faults)
 {
     Stage stage;
     Begin(&stage);
@@ -358,14 +358,4 @@ static void TestFaults(void** state)
     assert_int_equal(stage.host.lines, 5);
     kiriDefaultDebugDraw(NULL);
     End(&stage);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestCounts), cmocka_unit_test(TestPlaces), cmocka_unit_test(TestBlades),
-        cmocka_unit_test(TestWork),   cmocka_unit_test(TestShapes), cmocka_unit_test(TestOfOneSheet),
-        cmocka_unit_test(TestFaults),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

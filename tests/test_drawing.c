@@ -90,9 +90,8 @@ static void CheckBox(double left, double low, double right, double high)
 /* ---- SVG ---- */
 
 /* Short strokes with gaps, and a path of very many corners: nothing is sampled. */
-static void TestCornersAreExact(void** state)
+TEST(CornersAreExact)
 {
-    (void)state;
     ReadAndJoin(
         "<svg viewBox='0 0 100 100'><path d='M0 0H100 M0 50h.1 M.2 50h.1 M.4 50h.1 M.6 50h.1 M0 100H100'/></svg>");
     assert_int_equal(drawing.lineCount, 6);
@@ -110,9 +109,8 @@ static void TestCornersAreExact(void** state)
     }
 }
 
-static void TestPaths(void** state)
+TEST(Paths)
 {
-    (void)state;
     /* Repeated arguments, relative ones, numbers without spaces, flags of arcs without spaces, a smooth curve. */
     ReadAndJoin(SVG "<path d='m10 10 5 0 0 5-5 0z m20 20 .5.5 1e1-1E0'/><path d='M50 50a5 5 0 015 5'/>"
                     "<path d='M0 90c0 -10 10 -10 10 0s10 10 10 0'/></svg>");
@@ -138,9 +136,8 @@ static void TestPaths(void** state)
 }
 
 /* All points lie on the curve, and chords no farther from it than the tolerance. */
-static void TestCurves(void** state)
+TEST(Curves)
 {
-    (void)state;
     static const char* circles[] = {
         SVG "<circle cx='50' cy='50' r='40'/></svg>",
         SVG "<path d='M10 50A40 40 0 0 1 90 50A40 40 0 0 1 10 50z'/></svg>",
@@ -189,9 +186,8 @@ static void TestCurves(void** state)
     assert_true(drawing.lines[0].count > 100);
 }
 
-static void TestUnits(void** state)
+TEST(Units)
 {
-    (void)state;
     static const struct {
         const char* text;
         double size;
@@ -222,9 +218,8 @@ static void TestUnits(void** state)
     }
 }
 
-static void TestUseAndTransforms(void** state)
+TEST(UseAndTransforms)
 {
-    (void)state;
     Read(SVG "<defs><path id='gone' d='M0 0h9v9z'/></defs><path id='h' d='M10 10h20v20h-20z'/><use href='#h' x='30'/>"
              "<use xlink:href='#h' y='40'/><use href='#missing'/></svg>");
     assert_int_equal(drawing.lineCount, 3);
@@ -261,9 +256,8 @@ static void TestUseAndTransforms(void** state)
     Refuse(laughs, "more than");
 }
 
-static void TestHiddenAndClipped(void** state)
+TEST(HiddenAndClipped)
 {
-    (void)state;
     Read(SVG "<style>.no { display: none } #w, .u { stroke: red; fill: none }</style><path d='M0 0h100'/>"
              "<g style='display:none'><circle r='30'/></g><rect class='no' width='5' height='5'/><g "
              "visibility='hidden'><path d='M1 1h2'/>"
@@ -295,9 +289,8 @@ static void TestHiddenAndClipped(void** state)
 }
 
 /* The table that a user sees and changes. */
-static void TestUses(void** state)
+TEST(Uses)
 {
-    (void)state;
     const char* text = SVG
         "<path d='M5 5h90v90h-90z' stroke='#000' fill='none'/><path d='M5 50h90' stroke='#f00'/>"
         "<path d='M50 5v90' stroke='rgb(0,0,255)' stroke-dasharray='2 2'/><path d='M20 20h20' style='stroke:#00ff00'/>"
@@ -337,9 +330,8 @@ static void TestUses(void** state)
 
 /* ---- DXF ---- */
 
-static void TestDxf(void** state)
+TEST(Dxf)
 {
-    (void)state;
     ReadAndJoin(
         "  0\r\nSECTION\r\n  "
         "2\r\nTABLES\r\n0\r\nLAYER\r\n2\r\nFold\r\n62\r\n7\r\n0\r\nLAYER\r\n2\r\noff\r\n62\r\n-7\r\n0\r\nENDSEC\r\n"
@@ -386,9 +378,8 @@ static void TestDxf(void** state)
 #define FOLDED "\"vertices_coords\":[[0,0],[1,0],[0,0],[1,0]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0]],"
 #define BORDERS "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\"]"
 
-static void TestFold(void** state)
+TEST(Fold)
 {
-    (void)state;
     ReadAndJoin("{\"file_frames\":[{\"frame_classes\":[\"foldedForm\"]," FOLDED BORDERS
                 "},{\"frame_classes\":[\"creasePattern\"]," SQUARE BORDERS "}]}");
     CheckBox(0, 0, 1, 1);
@@ -437,9 +428,8 @@ static void TestFold(void** state)
     Refuse("{\"vertices_coords\":[[0,0],\n[1,0]", "line 2");
 }
 
-static void TestRefusals(void** state)
+TEST(Refusals)
 {
-    (void)state;
     Refuse("", "empty");
     Refuse("solid cube", "no SVG");
     Refuse("<p>no</p>", "no SVG");
@@ -459,9 +449,8 @@ static void TestRefusals(void** state)
 /* ---- Joining ---- */
 
 /* Intervals on some lines, doubled, reversed and split at random: their union remains, without doubles. */
-static void TestDoubles(void** state)
+TEST(Doubles)
 {
-    (void)state;
     enum { RUNS = 20, LINES = 12, PARTS = 6, STEPS = 40 };
     for (uint32_t run = 0; run < RUNS; run++) {
         static char text[40000];
@@ -490,9 +479,8 @@ static void TestDoubles(void** state)
 }
 
 /* Ends that nearly meet are joined to one line; lines that cross, and ends that are farther apart, are not. */
-static void TestMeetings(void** state)
+TEST(Meetings)
 {
-    (void)state;
     ReadAndJoin(
         SVG "<path d='M10 10H90'/><path d='M90.004 10.003V90'/><path d='M10 90.004H90'/><path d='M10 10V90'/></svg>");
     assert_int_equal(drawing.lineCount, 1);
@@ -506,9 +494,8 @@ static void TestMeetings(void** state)
 }
 
 /* All pieces of a nest of squares with shared sides come off a sheet, with a ring in each. */
-static void TestPieces(void** state)
+TEST(Pieces)
 {
-    (void)state;
     enum { SIDE = 5 };
     static char text[20000] = SVG;
     static float points[4000];
@@ -549,9 +536,8 @@ static void ReadFile(FILE* file)
 }
 
 /* A slit, and a square that comes off and moves away as a sheet: written and read again, the lines are the same. */
-static void TestExport(void** state)
+TEST(Export)
 {
-    (void)state;
     static const float slit[] = { 0.02f, 0.085f, 0.05f, 0.08f, 0.08f, 0.085f };
     static const float square[] = { 0.0213f, 0.0213f, 0.0613f, 0.0213f, 0.0613f,
                                     0.0613f, 0.0213f, 0.0613f, 0.0213f, 0.0213f };
@@ -587,9 +573,8 @@ static void TestExport(void** state)
 }
 
 /* Damaged files give lines or one error line, and finite points. */
-static void TestDamaged(void** state)
+TEST(Damaged)
 {
-    (void)state;
     static const char* files[] = {
         SVG "<!DOCTYPE svg [<!ENTITY a 'b'>]><style><![CDATA[.a,.b{stroke:red;fill:none}]]></style><clipPath "
             "id='c'><circle r='9'/></clipPath>"
@@ -649,31 +634,12 @@ static void TestDamaged(void** state)
     assert_in_range(fine, 300, 1950);
 }
 
-static int FreeDrawing(void** state)
+static void FreeDrawing(void)
 {
-    (void)state;
     Import_Free(&drawing);
-    return 0;
 }
 
-int main(void)
+SETUP
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestCornersAreExact),
-        cmocka_unit_test(TestPaths),
-        cmocka_unit_test(TestCurves),
-        cmocka_unit_test(TestUnits),
-        cmocka_unit_test(TestUseAndTransforms),
-        cmocka_unit_test(TestHiddenAndClipped),
-        cmocka_unit_test(TestUses),
-        cmocka_unit_test(TestDxf),
-        cmocka_unit_test(TestFold),
-        cmocka_unit_test(TestRefusals),
-        cmocka_unit_test(TestDoubles),
-        cmocka_unit_test(TestMeetings),
-        cmocka_unit_test(TestPieces),
-        cmocka_unit_test(TestExport),
-        cmocka_unit_test(TestDamaged),
-    };
-    return cmocka_run_group_tests(tests, NULL, FreeDrawing);
+    atexit(FreeDrawing);
 }

@@ -2,15 +2,11 @@
    gain no energy, are never given up, and do not stretch. */
 #include "defaults.h"
 #include "kiri/kiri.h"
+#include "support.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdbool.h>
 #include <stdio.h>
-
-#include <cmocka.h>
 
 enum { SQUARES = 16, TICKS = 400, SUBSTEPS = 2 };
 
@@ -110,7 +106,7 @@ static bool TryFall(const Fall* fall)
     return fine;
 }
 
-static void TestFalls(void** state)
+TEST(Falls)
 {
     static const int32_t frames[] = { 1, 4, 12 }, obstacles[] = { -1, KIRI_OBSTACLE_BOX, KIRI_OBSTACLE_SPHERE };
     static const float tilts[] = { 0.0f, 0.3f, 1.2f, 1.57f };
@@ -124,10 +120,4 @@ static void TestFalls(void** state)
         }
     }
     assert_int_equal(failed, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestFalls) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

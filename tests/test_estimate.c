@@ -151,7 +151,7 @@ static double Drop(const Sheet* s, int32_t count)
 
 /* Slits over half and four fifths of a strip add 7.9 and 22.5 mm to its drop, wherever the ends lie in their
    squares. */
-static void SlitsBendAsFarAsTheyShould(void** state)
+TEST(SlitsBendAsFarAsTheyShould)
 {
     static const float half[4] = { 0.05f, -0.01f, 0.05f, 0.025f }, most[4] = { 0.05f, -0.01f, 0.05f, 0.04f };
     static const int32_t counts[5] = { 24, 36, 48, 96, 150 };
@@ -173,7 +173,7 @@ static void SlitsBendAsFarAsTheyShould(void** state)
 
 /* A strip with three slits from both sides is pulled in its plane: 7.05 kN/m with 80 x 20 shell elements, 6.90 with
    160 x 40. */
-static void LigamentsStretchAsTheyShould(void** state)
+TEST(LigamentsStretchAsTheyShould)
 {
     static const float slits[12] = { 0.08f, -0.01f, 0.08f, 0.035f, 0.12f, -0.01f,
                                      0.12f, 0.035f, 0.1f,  0.06f,  0.1f,  0.015f };
@@ -304,7 +304,7 @@ static bool IsTold(const char* name, Outcome o)
     return o.estimate > 0.5 * o.error && o.estimate < 4.0 * most;
 }
 
-static void EstimateOfARow(void** state)
+TEST(EstimateOfARow)
 {
     static Elastica elastica;
     static const int32_t counts[5] = { 3, 4, 5, 7, 10 };
@@ -315,7 +315,7 @@ static void EstimateOfARow(void** state)
     }
 }
 
-static void EstimateOfWideSheets(void** state)
+TEST(EstimateOfWideSheets)
 {
     static Shell shell;
     static const int32_t counts[4] = { 6, 12, 24, 48 };
@@ -326,7 +326,7 @@ static void EstimateOfWideSheets(void** state)
     }
 }
 
-static void EstimateAroundASlit(void** state)
+TEST(EstimateAroundASlit)
 {
     static Shell shell;
     static const int32_t counts[12] = { 6, 9, 12, 15, 18, 24, 30, 36, 48, 64, 96, 140 };
@@ -340,7 +340,7 @@ static void EstimateAroundASlit(void** state)
 }
 
 /* Layouts on which no constant was chosen. */
-static void EstimateOfCrookedLayouts(void** state)
+TEST(EstimateOfCrookedLayouts)
 {
     static Elastica elastica;
     static Shell wide, tongue;
@@ -358,7 +358,7 @@ static void EstimateOfCrookedLayouts(void** state)
 }
 
 /* Nothing bends: no error. One frame, or two: nothing to tell from. Other models have no links to ask. */
-static void EstimateAtTheEnds(void** state)
+TEST(EstimateAtTheEnds)
 {
     for (int32_t frames = 1; frames < 4; ++frames) {
         double estimate = -1.0;
@@ -376,7 +376,7 @@ static void EstimateAtTheEnds(void** state)
     }
 }
 
-static void EstimateNeedsLittle(void** state)
+TEST(EstimateNeedsLittle)
 {
     double estimate = -1.0;
     Host host;
@@ -412,7 +412,7 @@ static void AssertReached(const char* name, const Sheet* s, const Reference* ref
     }
 }
 
-static void AccuracyIsReached(void** state)
+TEST(AccuracyIsReached)
 {
     static Elastica elastica;
     static Shell wide, tongue;
@@ -424,7 +424,7 @@ static void AccuracyIsReached(void** state)
 }
 
 /* No more than the grid carries, and not fewer than it takes to bend. */
-static void AccuracyHasLimits(void** state)
+TEST(AccuracyHasLimits)
 {
     static const struct {
         float young, accuracy;
@@ -447,21 +447,4 @@ static void AccuracyHasLimits(void** state)
         assert_in_range(frames, cases[k].least, cases[k].most);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(SlitsBendAsFarAsTheyShould),
-        cmocka_unit_test(LigamentsStretchAsTheyShould),
-        cmocka_unit_test(EstimateOfARow),
-        cmocka_unit_test(EstimateOfWideSheets),
-        cmocka_unit_test(EstimateAroundASlit),
-        cmocka_unit_test(EstimateOfCrookedLayouts),
-        cmocka_unit_test(EstimateAtTheEnds),
-        cmocka_unit_test(EstimateNeedsLittle),
-        cmocka_unit_test(AccuracyIsReached),
-        cmocka_unit_test(AccuracyHasLimits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

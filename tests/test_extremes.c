@@ -17,7 +17,7 @@ static void AssertWell(const Extreme* e)
     }
 }
 
-static void TestTable(void** state)
+TEST(Table)
 {
     for (int i = 0; i < extremeCount; ++i) {
         if (!extremes[i].full) {
@@ -26,7 +26,7 @@ static void TestTable(void** state)
     }
 }
 
-static void TestAtRandom(void** state)
+TEST(AtRandom)
 {
     uint32_t seed = 98765;
     for (int i = 0; i < 40; ++i) {
@@ -102,7 +102,7 @@ static void AssertAtRest(const State* now, const State* before)
 
 /* Of three sheets the middle one is pushed beyond what floats hold. It rests where it was, and falls on afterwards as
    one that was let go there. The others do not notice. */
-static void TestOneDiverges(void** state)
+TEST(OneDiverges)
 {
     Host host, other;
     Host_Start(&host);
@@ -138,7 +138,7 @@ static void TestOneDiverges(void** state)
 }
 
 /* Forces that are just within reach fling the sheet to where floats end; until then all that is read is finite. */
-static void TestForcesUpTo(void** state)
+TEST(ForcesUpTo)
 {
     START_HOST(host);
     kiriSheet sheet = AddSheet(&host, 0.0f);
@@ -166,7 +166,7 @@ static void TestForcesUpTo(void** state)
 }
 
 /* A ball that spins rubs the sheet along. Frames that may stretch are torn; a smooth surface takes squares of that. */
-static void TestSpinsUpTo(void** state)
+TEST(SpinsUpTo)
 {
     int diverged = 0;
     for (int k = 0; k < 38; ++k) {
@@ -195,7 +195,7 @@ static void TestSpinsUpTo(void** state)
 }
 
 /* A frame that is held where no float reaches: every tick says so, and the sheet goes on when it is let go. */
-static void TestHeldOutOfReach(void** state)
+TEST(HeldOutOfReach)
 {
     const float far[3] = { 3e38f, -3e38f, 3e38f }, rotation[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     START_HOST(host);
@@ -216,7 +216,7 @@ static void TestHeldOutOfReach(void** state)
 /* ---- Far from the origin ----------------------------------------------------------------------------------------- */
 
 /* Positions are read as floats, 0.0078 m apart; normals are not made of those. */
-static void TestNormalsFarAway(void** state)
+TEST(NormalsFarAway)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -230,14 +230,4 @@ static void TestNormalsFarAway(void** state)
         assert_true(fabs(mesh.normals[3 * v] + 0.8) < 1e-5 && fabs(mesh.normals[3 * v + 2] - 0.6) < 1e-5);
     }
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestOneDiverges),    cmocka_unit_test(TestForcesUpTo),     cmocka_unit_test(TestSpinsUpTo),
-        cmocka_unit_test(TestHeldOutOfReach), cmocka_unit_test(TestNormalsFarAway), cmocka_unit_test(TestTable),
-        cmocka_unit_test(TestAtRandom),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -120,17 +120,9 @@ static void RunNet(uint32_t run)
     Host_Stop(&host);
 }
 
-static void TestNets(void** state)
+TEST(Nets)
 {
     for (uint32_t run = 1; run <= 150; ++run) {
         RunNet(run);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestNets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

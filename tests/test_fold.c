@@ -91,9 +91,8 @@ static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t column
     return angle / low - 1.0;
 }
 
-static void HalfASheetHangsOnItsHinge(void** state)
+TEST(HalfASheetHangsOnItsHinge)
 {
-    (void)state;
     const double stiffness[] = { 0.0005, 0.002, 0.005, 0.02 };
     const int32_t layouts[3][3] = { { 4, 32, 20 }, { 12, 48, 14 }, { 24, 64, 33 } };
     for (int l = 0; l < 3; ++l) {
@@ -130,9 +129,8 @@ static double SagOf(float stiffness, float lean, int32_t frames)
 }
 
 /* A fold that is stiffer than the material bends as the material does. */
-static void StiffFoldsAreLikeNone(void** state)
+TEST(StiffFoldsAreLikeNone)
 {
-    (void)state;
     for (int32_t frames = 12; frames <= 24; frames += 12) {
         double none = SagOf(-1.0f, 0.0f, frames);
         for (int lean = 0; lean < 2; ++lean) {
@@ -144,12 +142,11 @@ static void StiffFoldsAreLikeNone(void** state)
 }
 
 /* The seen surface is two planes, as far as rigid frames carry them. */
-static void SeenSurfaceIsTwoPlanes(void** state)
+TEST(SeenSurfaceIsTwoPlanes)
 {
     const kiriFold fold = { { 0.03f, 0.0f }, { 0.06f, 0.05f }, 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     Host host;
-    (void)state;
     Host_Start(&host);
     def.frameCount = 2;
     def.gridResolution = 40;
@@ -184,14 +181,13 @@ static void SeenSurfaceIsTwoPlanes(void** state)
 }
 
 /* A cut along a fold parts the sheet; one across it leaves one piece on each side, whose folds go on. */
-static void CutsGoThroughFolds(void** state)
+TEST(CutsGoThroughFolds)
 {
     const kiriFold folds[2] = { { { 0.05f, -1.0f }, { 0.05f, 1.0f }, 1e-4f, 0.5f, 0.0f },
                                 { { 0.02f, 0.0f }, { 0.02f, 0.03f }, 1e-4f, 0.0f, 0.0f } };
     const float across[4] = { -0.1f, 0.02f, 0.2f, 0.03f }, along[4] = { 0.05f, -0.01f, 0.05f, 0.06f };
     kiriSheetDef def = StiffDef();
     Host host;
-    (void)state;
     Host_Start(&host);
     def.frameCount = 8;
     kiriSheet part, sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, folds, 2);
@@ -218,7 +214,7 @@ static void CutsGoThroughFolds(void** state)
 }
 
 /* Blades in world space go through folds. */
-static void BladesGoThroughFolds(void** state)
+TEST(BladesGoThroughFolds)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 1.2f, 0.0f };
     const float none[3] = { 0.0f, 0.0f, 0.0f };
@@ -227,7 +223,6 @@ static void BladesGoThroughFolds(void** state)
     kiriCut cut;
     kiriBlade blade;
     Host host;
-    (void)state;
     Host_Start(&host);
     OK(kiriWorld_SetGravity(host.world, none));
     def.material.airDamping = 20.0f;
@@ -249,13 +244,12 @@ static void BladesGoThroughFolds(void** state)
 }
 
 /* Cloth with a detail layer: both sides of the drawn mesh stay together. */
-static void ClothFolds(void** state)
+TEST(ClothFolds)
 {
     const kiriFold fold = { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 1e-4f, 2.0f, 0.0f };
     kiriSheetDef def;
     kiriPin pin;
     Host host;
-    (void)state;
     Host_Start(&host);
     host.every = 20;
     kiriDefaultSheetDef(&def);
@@ -270,13 +264,12 @@ static void ClothFolds(void** state)
 }
 
 /* A fold goes to its rest angle, also beyond a right angle and in the air, and turns nothing as a whole. */
-static void FoldsGoToTheirRestAngle(void** state)
+TEST(FoldsGoToTheirRestAngle)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     Host host;
-    (void)state;
     Host_Start(&host);
     def.material.airDamping = 30.0f;
     OK(kiriWorld_SetGravity(host.world, none));
@@ -340,7 +333,7 @@ static double LetGo(float yieldMoment)
 }
 
 /* A fold that a running sheet gets is like one that it was made with, and begins without a jerk. */
-static void FoldsAreAddedLater(void** state)
+TEST(FoldsAreAddedLater)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 1.0f, 0.0f };
     const kiriBudget budget = { 32, 500, 100, 0 };
@@ -348,7 +341,6 @@ static void FoldsAreAddedLater(void** state)
     kiriSheetDef def = StiffDef();
     int32_t index, ticks = 0;
     Host host;
-    (void)state;
     Host_Start(&host);
     OK(kiriWorld_SetGravity(host.world, none));
     OK(kiriWorld_SetBudget(host.world, &budget));
@@ -376,9 +368,8 @@ static void FoldsAreAddedLater(void** state)
     Host_Stop(&host);
 }
 
-static void FoldsKeepAnAngle(void** state)
+TEST(FoldsKeepAnAngle)
 {
-    (void)state;
     double elastic = LetGo(0.0f), yields = LetGo(0.002f);
     print_message("let go at a right angle: %.4f and %.4f rad\n", elastic, yields);
     assert_true(fabs(elastic) < 1e-3);
@@ -466,16 +457,15 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
     return worst;
 }
 
-static void VerticesFollowRigidFacets(void** state)
+TEST(VerticesFollowRigidFacets)
 {
-    (void)state;
     assert_true(FoldMiura(2, 2, 60.0 * Degree, 4, 32) < 0.3);
     assert_true(FoldMiura(2, 2, 70.0 * Degree, 12, 40) < 0.3);
     assert_true(FoldMiura(3, 3, 60.0 * Degree, 9, 48) < 0.3);
 }
 
 /* A waterbomb base from a FOLD file folds from flat to a flat triangle. */
-static void WaterbombFolds(void** state)
+TEST(WaterbombFolds)
 {
     static const char file[] =
         "{\"file_spec\":1.1,\"frame_classes\":[\"creasePattern\"],\"frame_unit\":\"mm\","
@@ -488,7 +478,6 @@ static void WaterbombFolds(void** state)
     float ways[MOST];
     Import drawing = { 0 };
     Host host;
-    (void)state;
     Host_Start(&host);
     host.every = 50;
     OK(kiriWorld_SetGravity(host.world, none));
@@ -635,9 +624,8 @@ static void CutBothWays(uint32_t seed)
     }
 }
 
-static void IncrementalEqualsFromScratch(void** state)
+TEST(IncrementalEqualsFromScratch)
 {
-    (void)state;
     for (uint32_t world = 1; world <= 10; ++world) {
         CutBothWays(world * 2654435761u | 1u);
     }
@@ -681,17 +669,16 @@ static bool SetInTick(int32_t when)
 }
 
 /* Folds keep what is set, also while links are being made. */
-static void FoldsAreSetInACut(void** state)
+TEST(FoldsAreSetInACut)
 {
     int32_t when = 0;
-    (void)state;
     while (!SetInTick(when)) {
         ++when;
     }
 }
 
 /* Vertices along a fold are rounded, by more than a small snap distance. The fold is whole, and its pieces come off. */
-static void SmallSnapsJoinFolds(void** state)
+TEST(SmallSnapsJoinFolds)
 {
     static const float snaps[3] = { 1e-6f, 1e-9f, 1e-12f };
     for (int k = 0; k < 3; ++k) {
@@ -704,25 +691,4 @@ static void SmallSnapsJoinFolds(void** state)
         assert_true(fabs(StateOf(&host, sheet, 0).length - 1.172) < 0.01);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(HalfASheetHangsOnItsHinge),
-        cmocka_unit_test(StiffFoldsAreLikeNone),
-        cmocka_unit_test(SeenSurfaceIsTwoPlanes),
-        cmocka_unit_test(CutsGoThroughFolds),
-        cmocka_unit_test(BladesGoThroughFolds),
-        cmocka_unit_test(ClothFolds),
-        cmocka_unit_test(FoldsGoToTheirRestAngle),
-        cmocka_unit_test(FoldsKeepAnAngle),
-        cmocka_unit_test(FoldsAreAddedLater),
-        cmocka_unit_test(VerticesFollowRigidFacets),
-        cmocka_unit_test(SmallSnapsJoinFolds),
-        cmocka_unit_test(FoldsAreSetInACut),
-        cmocka_unit_test(WaterbombFolds),
-        cmocka_unit_test(IncrementalEqualsFromScratch),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

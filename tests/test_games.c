@@ -2,15 +2,11 @@
 #include "../samples/games/games.h"
 #include "../samples/games/play.h"
 #include "../samples/games/script.h"
+#include "support.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 static char filePath[1024]; /* beside the program */
 
@@ -24,7 +20,7 @@ static void WriteText(const char* text)
     assert_int_equal(fclose(file), 0);
 }
 
-static void TestScriptKeepsEvents(void** state)
+TEST(ScriptKeepsEvents)
 {
     const GameEvent events[] = { { 3, GAME_DOWN, 0, GAME_LEFT, 480, 360, 0 },
                                  { 3, GAME_MOVE, 0, 0, -5, 719, 0 },
@@ -57,7 +53,7 @@ static void TestScriptKeepsEvents(void** state)
     Script_Free(&script);
 }
 
-static void TestScriptRefusesNonsense(void** state)
+TEST(ScriptRefusesNonsense)
 {
     static const char* const texts[] = { "3 jump 0 1\n", "down 0 1 2 3\n", "3 down 0 1 2\n", "3 keydown enter\n",
                                          "5 move 0 1 2\n4 move 0 1 2\n" };
@@ -75,7 +71,7 @@ static void TestScriptRefusesNonsense(void** state)
 
 /* ---- Camera and sounds ------------------------------------------------------------------------------------------ */
 
-static void TestRaysMeetWhatIsSeenThere(void** state)
+TEST(RaysMeetWhatIsSeenThere)
 {
     const GameCamera cameras[2] = { { { 0.3f, -3.0f, 1.5f }, { 0.0f, 0.2f, 0.8f }, 34.0f, 0.0f },
                                     { { 0.0f, -5.0f, 1.0f }, { 0.5f, 0.0f, 1.2f }, 0.0f, 2.5f } };
@@ -97,7 +93,7 @@ static void TestRaysMeetWhatIsSeenThere(void** state)
 }
 
 /* Dark pixels of a text lie between the top of its capitals and the line below; later shapes cover it. */
-static void TestTextIsSeen(void** state)
+TEST(TextIsSeen)
 {
     const Color white = { 1.0f, 1.0f, 1.0f, 1.0f }, black = { 0.0f, 0.0f, 0.0f, 1.0f };
     const GameCamera camera = { { 0.0f, -1.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 45.0f, 0.0f };
@@ -130,7 +126,7 @@ static void TestTextIsSeen(void** state)
     assert_int_equal(dark[2], 0);
 }
 
-static void TestSoundsAreHeardAndEnd(void** state)
+TEST(SoundsAreHeardAndEnd)
 {
     static float samples[2 * SOUND_RATE];
     Sounds sounds;
@@ -196,7 +192,7 @@ static uint64_t PlayEvents(Play* play, const Recorded* recorded, int32_t firstTi
 }
 
 /* What was recorded gives the same again, after a restart, too. */
-static void TestCurtainIsReplayed(void** state)
+TEST(CurtainIsReplayed)
 {
     static Recorded recorded;
     static Play play;
@@ -211,7 +207,7 @@ static void TestCurtainIsReplayed(void** state)
 }
 
 /* The file has the calls since the level was last started: they go as they did without the game. */
-static void TestCallsAreRecorded(void** state)
+TEST(CallsAreRecorded)
 {
     static Play play;
     static uint8_t bytes[1 << 18];
@@ -272,7 +268,7 @@ static uint64_t PlayUntil(Play* play, const Recorded* recorded, int32_t tick, in
 }
 
 /* A cut that is taken back was never there: what follows goes as it did. */
-static void TestCutsAreTakenBack(void** state)
+TEST(CutsAreTakenBack)
 {
     static Recorded recorded;
     static Play play;
@@ -308,7 +304,7 @@ static void TestCutsAreTakenBack(void** state)
 }
 
 /* The demo cuts the same lines whatever the cloth does, so it does not win every level. */
-static void TestCurtainIsWon(void** state)
+TEST(CurtainIsWon)
 {
     static Recorded recorded;
     int32_t won = 0;
@@ -328,21 +324,13 @@ const char* __lsan_default_suppressions(void)
     return "leak:libOSMesa";
 }
 
-int main(int count, char** words)
+static void RemoveFile(void)
+{
+    remove(filePath);
+}
+
+SETUP
 {
     snprintf(filePath, sizeof filePath, "%s.script", words[0]);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestScriptKeepsEvents),
-        cmocka_unit_test(TestScriptRefusesNonsense),
-        cmocka_unit_test(TestRaysMeetWhatIsSeenThere),
-        cmocka_unit_test(TestSoundsAreHeardAndEnd),
-        cmocka_unit_test(TestCurtainIsReplayed),
-        cmocka_unit_test(TestCurtainIsWon),
-        cmocka_unit_test(TestTextIsSeen),
-        cmocka_unit_test(TestCallsAreRecorded),
-        cmocka_unit_test(TestCutsAreTakenBack),
-    };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    remove(filePath);
-    return failed;
+    atexit(RemoveFile);
 }

@@ -15,7 +15,7 @@ static kiriSheet Hang(Host* host, kiriSheetDef* def)
 }
 
 /* Each of them as a def would have it, before the first tick: then the runs are the same. */
-static void TestSettingsAreADefs(void** state)
+TEST(SettingsAreADefs)
 {
     uint64_t hash[2];
     for (int way = 0; way < 2; ++way) {
@@ -58,7 +58,7 @@ static void TestSettingsAreADefs(void** state)
     assert_true(hash[0] == hash[1]);
 }
 
-static void TestSettingsChangeWhileItMoves(void** state)
+TEST(SettingsChangeWhileItMoves)
 {
     kiriSheetDef def = Host_SmallDef();
     START_HOST(host);
@@ -88,7 +88,7 @@ static void TestSettingsChangeWhileItMoves(void** state)
 }
 
 /* Another look is seen to come little by little, from the tick on in which both are asked for. */
-static void TestFadesMayBeginWithAnotherLook(void** state)
+TEST(FadesMayBeginWithAnotherLook)
 {
     for (int together = 0; together < 2; ++together) {
         kiriSheetDef def = Host_SmallDef();
@@ -111,7 +111,7 @@ static void TestFadesMayBeginWithAnotherLook(void** state)
     }
 }
 
-static void TestSettingsAreChecked(void** state)
+TEST(SettingsAreChecked)
 {
     kiriSheetDef def = Host_SmallDef();
     kiriSheetSettings good, bad;
@@ -157,7 +157,7 @@ static double Apart(const float* a, const float* b)
 }
 
 /* At vertices it is what the mesh shows; its velocity is that by which it goes on. */
-static void TestPointIsWhatIsSeen(void** state)
+TEST(PointIsWhatIsSeen)
 {
     for (int32_t skinning = 0; skinning < 2; ++skinning) {
         kiriSheetDef def = Host_SmallDef();
@@ -207,7 +207,7 @@ static void TestPointIsWhatIsSeen(void** state)
 
 /* A square of two triangles, one of them turned over: within the other the normals of the corners cancel out somewhere,
    and there the point has that of the triangle; or where that has no area, that of the corner next to it. */
-static void TestPointHasANormal(void** state)
+TEST(PointHasANormal)
 {
     static const float sites[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f };
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
@@ -243,7 +243,7 @@ static void TestPointHasANormal(void** state)
     Host_Stop(&host);
 }
 
-static void TestPointNamesItsPiece(void** state)
+TEST(PointNamesItsPiece)
 {
     kiriSheetDef def = Host_SmallDef();
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, outside[2] = { 1.5f, 0.5f };
@@ -265,7 +265,7 @@ static void TestPointNamesItsPiece(void** state)
 }
 
 /* Of models and skinnings, with fades on the way. */
-static void TestImpulseIsMomentum(void** state)
+TEST(ImpulseIsMomentum)
 {
     for (int32_t way = 0; way < 4; ++way) {
         kiriSheetDef def = Host_SmallDef();
@@ -297,7 +297,7 @@ static void TestImpulseIsMomentum(void** state)
 }
 
 /* One that is planar takes what is in its plane. */
-static void TestImpulseInPlane(void** state)
+TEST(ImpulseInPlane)
 {
     kiriSheetDef def = Host_SmallDef();
     const float at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
@@ -321,7 +321,7 @@ static kiriWind Wind(float x, float y, float z, float drag, float lift)
 }
 
 /* m g = density / 2 drag area v^2, flat, in still air; and edge on, by the force along the sheet. */
-static void TestTerminalVelocity(void** state)
+TEST(TerminalVelocity)
 {
     for (int way = 0; way < 6; ++way) {
         kiriSheetDef def = Host_SmallDef();
@@ -347,7 +347,7 @@ static void TestTerminalVelocity(void** state)
 }
 
 /* However strong: it carries the sheet along, and never faster than itself. */
-static void TestWindIsNotOvertaken(void** state)
+TEST(WindIsNotOvertaken)
 {
     for (int way = 0; way < 4; ++way) {
         kiriSheetDef def = Host_SmallDef();
@@ -372,7 +372,7 @@ static void TestWindIsNotOvertaken(void** state)
     }
 }
 
-static void TestWindIsChecked(void** state)
+TEST(WindIsChecked)
 {
     kiriSheetDef def = Host_SmallDef();
     START_HOST(host);
@@ -410,7 +410,7 @@ static double ForceOn(const Host* host, kiriPin pin)
 }
 
 /* Three hold; each breaks in the tick in which it bears more than it can, and no sooner. */
-static void TestPinsBreak(void** state)
+TEST(PinsBreak)
 {
     kiriSheetDef def = Host_SmallDef();
     const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
@@ -478,14 +478,14 @@ static double Draw(int32_t substeps)
     return sqrt(squares);
 }
 
-static void TestDrawnPinDoesNotJerk(void** state)
+TEST(DrawnPinDoesNotJerk)
 {
     double one = Draw(1), four = Draw(4);
     print_message("a cloth drawn by its corner: %.3f N rms with 1 substep, %.3f N with 4\n", one, four);
     assert_true(four < 2.0 * one);
 }
 
-static void TestHeldFrameMovesEvenly(void** state)
+TEST(HeldFrameMovesEvenly)
 {
     kiriSheetDef def = Host_SmallDef();
     kiriFrame frames[8];
@@ -507,7 +507,7 @@ static void TestHeldFrameMovesEvenly(void** state)
 }
 
 /* Hung up with a smooth surface: what is seen is where it is held, and it falls asleep. */
-static void TestSeenIsHeld(void** state)
+TEST(SeenIsHeld)
 {
     for (int kind = 0; kind < 3; ++kind) {
         const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
@@ -614,7 +614,7 @@ static double ShapesApart(const HungStrip* a, const HungStrip* b)
 
 /* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and
    hangs as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
-static void TestSmoothClampKeepsShape(void** state)
+TEST(SmoothClampKeepsShape)
 {
     static const int32_t layouts[][2] = { { 0, 32 }, { 9, 32 }, { 14, 48 } };
     for (int i = 0; i < 3 * STRIP_EDGES; ++i) {
@@ -662,7 +662,7 @@ static kiriPointState HangHalf(float push)
 }
 
 /* What is seen of one piece does not move the clamp for another. */
-static void TestSmoothClampKeepsPiecesApart(void** state)
+TEST(SmoothClampKeepsPiecesApart)
 {
     kiriPointState alone = HangHalf(0.0f), beside = HangHalf(0.02f);
     double apart = Apart(alone.position, beside.position);
@@ -686,7 +686,7 @@ static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 }
 
 /* Where it goes the point goes, by velocity and by turning; what the pin bears the obstacle gets. */
-static void TestPinGoesWithObstacle(void** state)
+TEST(PinGoesWithObstacle)
 {
     kiriSheetDef def = Host_SmallDef();
     const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
@@ -727,7 +727,7 @@ static void TestPinGoesWithObstacle(void** state)
 
 /* A body of the host hangs at a sheet by a pin, without gravity, and is thrown: together they keep their momentum, and
    the pin holds, whatever the masses. */
-static void TestBodyAtPinKeepsMomentum(void** state)
+TEST(BodyAtPinKeepsMomentum)
 {
     for (int decade = -2; decade <= 3; ++decade) {
         kiriSheetDef def = Host_SmallDef();
@@ -770,7 +770,7 @@ static void TestBodyAtPinKeepsMomentum(void** state)
 
 /* A sheet that is carried to another place in free fall goes on as it would have there: rotated gravity, rotated
    start. */
-static void TestTransformMovesAll(void** state)
+TEST(TransformMovesAll)
 {
     const float quarter[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
     const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
@@ -804,7 +804,7 @@ static void TestTransformMovesAll(void** state)
     }
 }
 
-static void TestTransformIsChecked(void** state)
+TEST(TransformIsChecked)
 {
     const float quarter[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
     const float mirror[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f }, bad[3] = { 0.0f, NAN, 0.0f };
@@ -827,7 +827,7 @@ static void TestTransformIsChecked(void** state)
     Host_Stop(&host);
 }
 
-static void TestVelocityIsRigid(void** state)
+TEST(VelocityIsRigid)
 {
     const float velocity[3] = { 1.0f, 2.0f, -0.5f }, spin[3] = { 0.3f, -0.2f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
@@ -869,7 +869,7 @@ static uint64_t PieceData(const Host* host, kiriSheet sheet, int32_t piece)
     return data;
 }
 
-static void TestUserDataStays(void** state)
+TEST(UserDataStays)
 {
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, across[4] = { 0.4f, 0.4f, 1.1f, 0.4f };
     kiriSheetDef def = Host_SmallDef();
@@ -970,7 +970,7 @@ static void CheckRims(const kiriSolid* solid)
     }
 }
 
-static void TestSolidIsClosed(void** state)
+TEST(SolidIsClosed)
 {
     kiriSheetDef def = Host_SmallDef();
     kiriSolid solid, again;
@@ -1045,7 +1045,7 @@ static kiriSheet HangIn(Host* host, bool isYUp)
     return sheet;
 }
 
-static void TestNoAxisIsUp(void** state)
+TEST(NoAxisIsUp)
 {
     Host hosts[2];
     kiriSheet sheets[2] = { HangIn(&hosts[0], false), HangIn(&hosts[1], true) };
@@ -1064,37 +1064,4 @@ static void TestNoAxisIsUp(void** state)
     assert_true(moved > 0.1);
     Host_Stop(&hosts[0]);
     Host_Stop(&hosts[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSettingsAreADefs),
-        cmocka_unit_test(TestSettingsChangeWhileItMoves),
-        cmocka_unit_test(TestFadesMayBeginWithAnotherLook),
-        cmocka_unit_test(TestSettingsAreChecked),
-        cmocka_unit_test(TestPointIsWhatIsSeen),
-        cmocka_unit_test(TestPointHasANormal),
-        cmocka_unit_test(TestPointNamesItsPiece),
-        cmocka_unit_test(TestImpulseIsMomentum),
-        cmocka_unit_test(TestImpulseInPlane),
-        cmocka_unit_test(TestTerminalVelocity),
-        cmocka_unit_test(TestWindIsNotOvertaken),
-        cmocka_unit_test(TestWindIsChecked),
-        cmocka_unit_test(TestPinsBreak),
-        cmocka_unit_test(TestDrawnPinDoesNotJerk),
-        cmocka_unit_test(TestHeldFrameMovesEvenly),
-        cmocka_unit_test(TestSeenIsHeld),
-        cmocka_unit_test(TestSmoothClampKeepsShape),
-        cmocka_unit_test(TestSmoothClampKeepsPiecesApart),
-        cmocka_unit_test(TestPinGoesWithObstacle),
-        cmocka_unit_test(TestBodyAtPinKeepsMomentum),
-        cmocka_unit_test(TestTransformMovesAll),
-        cmocka_unit_test(TestTransformIsChecked),
-        cmocka_unit_test(TestVelocityIsRigid),
-        cmocka_unit_test(TestUserDataStays),
-        cmocka_unit_test(TestSolidIsClosed),
-        cmocka_unit_test(TestNoAxisIsUp),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

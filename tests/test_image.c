@@ -1,15 +1,11 @@
 /* An animated PNG is what its specification says, and its frames show what was drawn. */
 #include "../samples/image.h"
+#include "support.h"
 
 #include <png.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
-
-#include <cmocka.h>
 
 enum { WIDTH = 128, HEIGHT = 64, BYTES = 3 * WIDTH * HEIGHT, FRAMES = 3, DELAY = 4, MAX_FILE = 1 << 17 };
 
@@ -105,7 +101,7 @@ static void CheckChunk(Walk* walk, const uint8_t* chunk)
     walk->chunks++;
 }
 
-static void TestChunks(void** state)
+TEST(Chunks)
 {
     static uint8_t bytes[MAX_FILE];
     WriteFilm();
@@ -128,7 +124,7 @@ static void TestChunks(void** state)
 }
 
 /* A program that does not know animated PNG sees the first frame. */
-static void TestFirstFrame(void** state)
+TEST(FirstFrame)
 {
     static uint8_t seen[BYTES];
     Image drawn;
@@ -187,7 +183,7 @@ static void GoOver(uint8_t* shown, const uint8_t* rgba)
 }
 
 /* One over the other, all frames show what was drawn but for 2 in 255, and these do not add up. */
-static void TestAllFrames(void** state)
+TEST(AllFrames)
 {
     static uint8_t film[MAX_FILE], file[MAX_FILE], rgba[4 * WIDTH * HEIGHT], shown[BYTES];
     static const int seen[FRAMES] = { 0, 0, 2 }; /* of which frame the lower rows are */
@@ -215,7 +211,7 @@ static void TestAllFrames(void** state)
     Image_Free(&lower);
 }
 
-static void TestRefusals(void** state)
+TEST(Refusals)
 {
     Image image;
     Apng apng;
@@ -232,19 +228,13 @@ static void TestRefusals(void** state)
     Image_Free(&image);
 }
 
-static int RemoveFile(void** state)
+static void RemoveFile(void)
 {
-    return remove(filePath);
+    remove(filePath);
 }
 
-int main(int count, char** words)
+SETUP
 {
-    snprintf(filePath, sizeof filePath, "%s.png", count > 0 ? words[0] : "test_image");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestChunks),
-        cmocka_unit_test(TestFirstFrame),
-        cmocka_unit_test(TestAllFrames),
-        cmocka_unit_test(TestRefusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, RemoveFile);
+    snprintf(filePath, sizeof filePath, "%s.png", words[0]);
+    atexit(RemoveFile);
 }

@@ -189,7 +189,7 @@ static void CutAndCheckUvs(Host* host, kiriSheet sheet, const Import* mesh, doub
 }
 
 /* Two islands of texture coordinates side by side, as tools unwrap them: the vertices between are there twice. */
-static void ClosesSeams(void** state)
+TEST(ClosesSeams)
 {
     for (int i = 0; i < 2; ++i) {
         uint32_t seed = 5;
@@ -211,7 +211,7 @@ static void ClosesSeams(void** state)
 }
 
 /* A side of a tube, unwrapped around an axis: a ring whose ends meet, of triangles of an island each. */
-static void ClosesRings(void** state)
+TEST(ClosesRings)
 {
     enum { SECTORS = 24, RINGS = 4 };
     START_HOST(host);
@@ -303,7 +303,7 @@ static void CutBoth(Host* a, Host* b, uint32_t* seed)
 }
 
 /* A soup and the mesh with shared vertices give the same sheet, bit for bit, also after cuts. */
-static void WeldsSoupsOfAnyMesh(void** state)
+TEST(WeldsSoupsOfAnyMesh)
 {
     uint32_t seed = 41;
     for (int i = 0; i < 60; ++i) {
@@ -322,7 +322,7 @@ static void WeldsSoupsOfAnyMesh(void** state)
 }
 
 /* The same where the copies of a vertex lie beside each other. */
-static void WeldsShakenSoups(void** state)
+TEST(WeldsShakenSoups)
 {
     uint32_t seed = 42;
     for (int i = 0; i < 60; ++i) {
@@ -351,7 +351,7 @@ static void GoOnElsewhere(Host* host)
 }
 
 /* Squares in a row, with gaps: those narrower than the distance close. */
-static void WeldsWhatIsNear(void** state)
+TEST(WeldsWhatIsNear)
 {
     static const struct {
         float gaps[2];
@@ -378,7 +378,7 @@ static void WeldsWhatIsNear(void** state)
 }
 
 /* Where two corners of a triangle are one, nothing is left of it, and its neighbours meet. */
-static void LeavesOutSlivers(void** state)
+TEST(LeavesOutSlivers)
 {
     static const float rest[] = { 0, 0, 1, 0, 1, 0.5f, 1, 0.5001f, 1, 1, 0, 1 };
     static const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5 };
@@ -417,7 +417,7 @@ static void LeavesOutSlivers(void** state)
 }
 
 /* They change nothing, wherever they lie. */
-static void LeavesOutUnusedVertices(void** state)
+TEST(LeavesOutUnusedVertices)
 {
     uint32_t seed = 44;
     for (int i = 0; i < 40; ++i) {
@@ -467,7 +467,7 @@ static void Refuse(Host* host, const Import* mesh, float weld, kiriResult expect
 }
 
 /* One triangle of many is bad: the line has its number, wherever it is. */
-static void NamesTheTriangle(void** state)
+TEST(NamesTheTriangle)
 {
     uint32_t seed = 46;
     START_HOST(host);
@@ -510,7 +510,7 @@ static void NamesTheTriangle(void** state)
     Host_Stop(&host);
 }
 
-static void NamesWhatWeldingDoes(void** state)
+TEST(NamesWhatWeldingDoes)
 {
     static const float flat[] = { 2, 2, 2, 2, 2, 2 }, small[] = { 0, 0, 1, 0, 0, 1 };
     static const float flips[] = { 0, 0, 1, 0, 0.5f, 0.01f, 0.505f, -0.03f, 0.52f, -1 };
@@ -546,7 +546,7 @@ static void NamesWhatWeldingDoes(void** state)
 }
 
 /* A line names the call that the host made. */
-static void RectanglesSpeakForThemselves(void** state)
+TEST(RectanglesSpeakForThemselves)
 {
     static const float far[] = { 0.5f, 0.5f, 3.0f, 3.0f };
     kiriSheet sheet;
@@ -577,21 +577,4 @@ static void RectanglesSpeakForThemselves(void** state)
     }
     host.failAt = -1;
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ClosesSeams),
-        cmocka_unit_test(ClosesRings),
-        cmocka_unit_test(WeldsSoupsOfAnyMesh),
-        cmocka_unit_test(WeldsShakenSoups),
-        cmocka_unit_test(WeldsWhatIsNear),
-        cmocka_unit_test(LeavesOutSlivers),
-        cmocka_unit_test(LeavesOutUnusedVertices),
-        cmocka_unit_test(NamesTheTriangle),
-        cmocka_unit_test(NamesWhatWeldingDoes),
-        cmocka_unit_test(RectanglesSpeakForThemselves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

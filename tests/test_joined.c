@@ -155,7 +155,7 @@ static Outcome DrawAtRandom(uint32_t run, const kiriBudget* budget)
 }
 
 /* Mesh, grid, regions, frames, weights and links do not depend on the budget, though updates do. */
-static void TestSameInTheEnd(void** state)
+TEST(SameInTheEnd)
 {
     static const kiriBudget none = { 0, 0, 0, 0 };
     static const kiriBudget budgets[] = { { 16, 6, 4, 0 },     { 40, 60, 20, 0 }, { 100, 400, 100, 0 },
@@ -212,7 +212,7 @@ static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bl
 }
 
 /* A slow hand does not make lips wait longer than an update that is at work when the blade leaves does. */
-static void TestSlowBladePartsSoon(void** state)
+TEST(SlowBladePartsSoon)
 {
     static const int32_t bladeTicks[] = { 4, 8, 16, 30, 60 };
     static const kiriBudget budget = { 0, 4000, 1000, 0 };
@@ -266,7 +266,7 @@ static int32_t TicksOfShort(const kiriBudget* budget, bool isOtherCut)
 }
 
 /* A long cut in one sheet does not hold up a short one in another. */
-static void TestShortCutGoesFirst(void** state)
+TEST(ShortCutGoesFirst)
 {
     static const kiriBudget budget = { 0, 600, 200, 0 };
     int32_t alone = TicksOfShort(&budget, false), beside = TicksOfShort(&budget, true);
@@ -274,7 +274,7 @@ static void TestShortCutGoesFirst(void** state)
 }
 
 /* Nor do short ones hold up a long one for ever, however many come. */
-static void TestLongCutComesToItsEnd(void** state)
+TEST(LongCutComesToItsEnd)
 {
     static const kiriBudget budget = { 0, 600, 200, 0 };
     int32_t ticks[2];
@@ -293,7 +293,7 @@ static void TestLongCutComesToItsEnd(void** state)
 /* ---- When sites are settled ---- */
 
 /* Slits that part nothing make frames rigid; more are added when the cut ends, in whatever tick. */
-static void TestFramesWhenCutEnds(void** state)
+TEST(FramesWhenCutEnds)
 {
     static const kiriBudget budgets[] = { { 0, 0, 0, 0 }, { 30, 90, 30, 0 } };
     for (size_t k = 0; k < 2; ++k) {
@@ -324,7 +324,7 @@ static void TestFramesWhenCutEnds(void** state)
 
 /* kiriCut_End queues a point where the cut has none in this tick. A refused allocation fails the call, which may be made
    again. */
-static void TestEndIsRefused(void** state)
+TEST(EndIsRefused)
 {
     int32_t refused = 0;
     for (int32_t points = 1; points < 40; ++points) {
@@ -355,14 +355,4 @@ static void TestEndIsRefused(void** state)
         Host_Stop(&host);
     }
     assert_true(refused > 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSameInTheEnd),      cmocka_unit_test(TestSlowBladePartsSoon),
-        cmocka_unit_test(TestShortCutGoesFirst), cmocka_unit_test(TestLongCutComesToItsEnd),
-        cmocka_unit_test(TestFramesWhenCutEnds), cmocka_unit_test(TestEndIsRefused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,7 +103,7 @@ static double SlitError(int32_t frames, int32_t grid, double angle, bool isThere
     return error;
 }
 
-static void SlitSquaresHangAsTheyShould(void** state)
+TEST(SlitSquaresHangAsTheyShould)
 {
     static const struct {
         int32_t frames;
@@ -124,7 +124,7 @@ static void SlitSquaresHangAsTheyShould(void** state)
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* Rows of frames with each frame moved by up to a quarter of the spacing. */
-static void JitteredRowsHangAsTheyShould(void** state)
+TEST(JitteredRowsHangAsTheyShould)
 {
     static const struct {
         int32_t rows;
@@ -197,7 +197,7 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     return torque[0] / (2.0 * (1.0 - nu) * D * (double)width * (double)angle / (double)length);
 }
 
-static void ZigzagsTwistAsTheyShould(void** state)
+TEST(ZigzagsTwistAsTheyShould)
 {
     static const int32_t counts[4] = { 8, 12, 16, 24 };
     for (int k = 0; k < 8; ++k) {
@@ -246,7 +246,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     assert_true(fabs(pull - 1.0) < 0.005);
 }
 
-static void ClampedStripsAreAsStiffAsTheyShould(void** state)
+TEST(ClampedStripsAreAsStiffAsTheyShould)
 {
     static const int32_t counts[4] = { 3, 5, 9, 17 };
     for (int k = 0; k < 8; ++k) {
@@ -276,7 +276,7 @@ static double ForceOfStrip(float slack, float strain)
 }
 
 /* Slack changes compression alone: beyond a few thousandths, the part that stays resists. */
-static void SlackGivesUnderCompression(void** state)
+TEST(SlackGivesUnderCompression)
 {
     double full = ForceOfStrip(0.0f, -0.02f), slack = ForceOfStrip(0.9f, -0.02f);
     print_message("a strip pressed by 2 %%: %.2f N, with slack %.2f N\n", full, slack);
@@ -294,7 +294,7 @@ static void PinCorners(Host* host, kiriSheet sheet, kiriPin pins[2])
 }
 
 /* A square that hangs in its plane by two corners, which come half as near in a second: it leaves the plane. */
-static void FlatSquaresFold(void** state)
+TEST(FlatSquaresFold)
 {
     static const int32_t materials[3] = { KIRI_MATERIAL_COTTON, KIRI_MATERIAL_PAPER, KIRI_MATERIAL_RUBBER };
     for (int k = 0; k < 6; ++k) {
@@ -326,7 +326,7 @@ static void FlatSquaresFold(void** state)
 }
 
 /* Cotton that hangs by two corners while a spiral is cut into it. Its links fold by half a turn. */
-static void SpiralsNeverFreeze(void** state)
+TEST(SpiralsNeverFreeze)
 {
     static const int32_t counts[2] = { 24, 40 };
     for (int k = 0; k < 6; ++k) {
@@ -369,18 +369,4 @@ static void SpiralsNeverFreeze(void** state)
         assert_true(still <= 4);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(SlitSquaresHangAsTheyShould),
-        cmocka_unit_test(JitteredRowsHangAsTheyShould),
-        cmocka_unit_test(ZigzagsTwistAsTheyShould),
-        cmocka_unit_test(ClampedStripsAreAsStiffAsTheyShould),
-        cmocka_unit_test(SlackGivesUnderCompression),
-        cmocka_unit_test(FlatSquaresFold),
-        cmocka_unit_test(SpiralsNeverFreeze),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

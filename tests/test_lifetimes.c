@@ -263,7 +263,7 @@ static const Between betweens[] = {
 
 enum { BETWEENS = sizeof(betweens) / sizeof(betweens[0]) };
 
-static void TestEachCall(void** state)
+TEST(EachCall)
 {
     for (int k = 0; k < BETWEENS; ++k) {
         Desk desk;
@@ -277,7 +277,7 @@ static void TestEachCall(void** state)
 }
 
 /* Many calls between two ticks, and arrays lent at any time: what the first call makes stale the others keep. */
-static void TestCallsAtRandom(void** state)
+TEST(CallsAtRandom)
 {
     enum { RUNS = 40, STEPS = 12 };
     for (uint32_t run = 1; run <= RUNS; ++run) {
@@ -302,7 +302,7 @@ static void TestCallsAtRandom(void** state)
 }
 
 /* What was lent is given back: a tick frees it. */
-static void TestTickFreesWhatWasLent(void** state)
+TEST(TickFreesWhatWasLent)
 {
     Desk desk;
     Desk_Start(&desk);
@@ -319,11 +319,4 @@ static void TestTickFreesWhatWasLent(void** state)
         assert_int_equal(desk.host.live, before);
     }
     Desk_Stop(&desk);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestEachCall), cmocka_unit_test(TestCallsAtRandom),
-                                        cmocka_unit_test(TestTickFreesWhatWasLent) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

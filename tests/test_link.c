@@ -54,7 +54,7 @@ static void CheckCorner(const Links* l, const kiriCorner* corner)
 }
 
 /* Three rows, the middle one shifted by half a region: three regions meet at each corner. */
-static void CornersOfShiftedRows(void** state)
+TEST(CornersOfShiftedRows)
 {
     Scene scene;
     Links links;
@@ -80,7 +80,7 @@ static void CornersOfShiftedRows(void** state)
 
 /* On randomly cut sheets: links are in order, no shorter than the straight line, and join what hangs together; and
    their borders are those of the grid, pair by pair, but for three squares at each end. */
-static void RandomSheetsAddUp(void** state)
+TEST(RandomSheetsAddUp)
 {
     uint32_t seed = 3;
     int32_t found = 0, corners = 0;
@@ -287,7 +287,7 @@ static int32_t PlaceNet(const Scene* scene, int net, int n, uint32_t* seed, kiri
 }
 
 /* On nets of 4, 6, 8 and 12 cells a spacing, wherever in its cell a site is. */
-static void BordersAreThoseOfVoronoi(void** state)
+TEST(BordersAreThoseOfVoronoi)
 {
     const int perSpacing[4] = { 4, 6, 8, 12 };
     uint32_t seed = 11;
@@ -355,7 +355,7 @@ static void CheckContinuous(Scene* scene, kiriSite* sites, int32_t count, int32_
     }
 }
 
-static void LinksAreContinuous(void** state)
+TEST(LinksAreContinuous)
 {
     for (int net = 0; net < NETS; ++net) {
         enum { ROWS = 4 };
@@ -372,7 +372,7 @@ static void LinksAreContinuous(void** state)
 }
 
 /* Beside slits: ways turn at their ends, and borders come to their sides. */
-static void LinksAreContinuousBesideSlits(void** state)
+TEST(LinksAreContinuousBesideSlits)
 {
     enum { ROWS = 4 };
     const int32_t moved[] = { 5, 6, 9, 13 };
@@ -453,7 +453,7 @@ static kiriWay WayOf(Plain* p, kiriVec2 from, kiriVec2 to)
     return way;
 }
 
-static void SlitsStopTheSight(void** state)
+TEST(SlitsStopTheSight)
 {
     Plain p;
     kiriSightHit hit;
@@ -479,7 +479,7 @@ static void SlitsStopTheSight(void** state)
 }
 
 /* Against all edges of the mesh, one by one. */
-static void SightIsThatOfAllEdges(void** state)
+TEST(SightIsThatOfAllEdges)
 {
     uint32_t seed = 9;
     int32_t clear = 0, stopped = 0;
@@ -517,7 +517,7 @@ static void SightIsThatOfAllEdges(void** state)
     assert_true(clear > 500 && stopped > 500);
 }
 
-static void WaysTurnAtSlitEnds(void** state)
+TEST(WaysTurnAtSlitEnds)
 {
     Plain p;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
@@ -544,7 +544,7 @@ static void WaysTurnAtSlitEnds(void** state)
 
 /* A slit of two legs: its knee is a corner on one side only. From the hollow side no way turns there, and none slips
    through it. */
-static void NoWayThroughAKnee(void** state)
+TEST(NoWayThroughAKnee)
 {
     Plain p;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
@@ -563,20 +563,4 @@ static void NoWayThroughAKnee(void** state)
     AssertNear(way.turn[0].x, 0.5, 1e-7);
     AssertNear(way.turn[0].y, 0.5, 1e-7);
     Plain_Stop(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(CornersOfShiftedRows),
-        cmocka_unit_test(RandomSheetsAddUp),
-        cmocka_unit_test(BordersAreThoseOfVoronoi),
-        cmocka_unit_test(LinksAreContinuous),
-        cmocka_unit_test(LinksAreContinuousBesideSlits),
-        cmocka_unit_test(SlitsStopTheSight),
-        cmocka_unit_test(SightIsThatOfAllEdges),
-        cmocka_unit_test(WaysTurnAtSlitEnds),
-        cmocka_unit_test(NoWayThroughAKnee),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

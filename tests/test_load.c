@@ -84,7 +84,7 @@ static double HeavyError(int along, double gamma, double x, double drop)
     return sqrt(dx * dx + dz * dz) / drop;
 }
 
-static void TestHeavyCantilever(void** state)
+TEST(HeavyCantilever)
 {
     FILE* file = fopen("tests/data/cantilever_master_curve.csv", "r");
     assert_non_null(file);
@@ -103,7 +103,7 @@ static void TestHeavyCantilever(void** state)
 }
 
 /* A clamp across a strip, wherever it lies between the sites: what is beyond it hangs as from its edge. */
-static void TestClampAcross(void** state)
+TEST(ClampAcross)
 {
     for (int k = 0; k < 10; ++k) {
         Strip strip = { 0.4, STRIP_WIDTH, STRIP_THICKNESS, 3e8, 1000.0, k < 5 ? 10 : 20 }, free = strip;
@@ -133,7 +133,7 @@ static void TestClampAcross(void** state)
 /* ---- End load ---------------------------------------------------------------------------------------------------- */
 
 /* Sze, Liu, Lo 2004, section 3.1: how far the tip moves in and down under a shear force P at the end. */
-static void TestEndLoad(void** state)
+TEST(EndLoad)
 {
     static const double cases[2][3] = { { 2.0, 1.604, 4.933 }, { 4.0, 3.286, 6.698 } };
     const Strip strip = { 10.0, 1.0, 0.1, 1.2e6, 0.1, 9 };
@@ -185,7 +185,7 @@ static const float nothing[3] = { 0.0f, 0.0f, 0.0f };
 
 /* A line load has the force and the torque of the line that lies in the material: along edges, through the sheet, along
    edges of triangles, beyond the outline, and along a cut. */
-static void TestLineLoads(void** state)
+TEST(LineLoads)
 {
     static const float lines[][4] = {
         { 0.0f, 0.0f, 0.0f, 1.0f },  { 1.0f, 1.0f, 0.0f, 1.0f },    { 0.1f, 0.23f, 0.93f, 0.61f },
@@ -216,7 +216,7 @@ static void TestLineLoads(void** state)
 }
 
 /* Each lip of a cut gets half, and is held whole. */
-static void TestLineAlongCut(void** state)
+TEST(LineAlongCut)
 {
     static const float across[4] = { 0.4f, -0.1f, 0.4f, 1.1f }, q[3] = { 0.0f, 0.0f, 3.0f };
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
@@ -244,7 +244,7 @@ static void TestLineAlongCut(void** state)
     Host_Stop(&host);
 }
 
-static void TestPointLoads(void** state)
+TEST(PointLoads)
 {
     static const float at[2] = { 0.9f, 0.35f }, force[3] = { 1.0f, -2.0f, 0.5f }, pressure[3] = { 0.0f, 0.0f, 4.0f };
     const double place[3] = { 0.9f, 0.35f, 0.0 }, middle[3] = { 0.5, 0.5, 0.0 };
@@ -340,7 +340,7 @@ static kiriSheetDef ReactionDef(int model)
 }
 
 /* At rest reactions bear the weight, at the centre of mass. */
-static void TestReactionsAtRest(void** state)
+TEST(ReactionsAtRest)
 {
     for (int k = 0; k < 2 * HOLDS; ++k) {
         START_HOST(host);
@@ -368,7 +368,7 @@ static void TestReactionsAtRest(void** state)
 
 /* In motion they change momentum, together with the weight, as far as the iteration has come. In an affine sheet that
    is held in all ways at once the limit of energy acts, and takes momentum of which no reaction tells. */
-static void TestReactionsInMotion(void** state)
+TEST(ReactionsInMotion)
 {
     const float dt = 0.01f;
     for (int k = 0; k < 2 * HOLDS - 1; ++k) {
@@ -395,7 +395,7 @@ static void TestReactionsInMotion(void** state)
 }
 
 /* What wind does to a sheet that is held everywhere, the holds bear: the pressure of its area, at its centre. */
-static void TestHoldsBearWind(void** state)
+TEST(HoldsBearWind)
 {
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const kiriWind wind = { { 3.0f, -2.0f, 5.0f }, 1.2f, 1.1f, 0.3f };
@@ -469,7 +469,7 @@ static kiriFrameState FrameStateOf(const Beam* beam, int32_t frame)
 
 /* A strip between two supports under pressure sinks in its middle by 5/384 p L^4 / D between hinges, and by a fifth of
    that between clamps, whose moment is p L^2 / 12. */
-static void TestPressureBetweenSupports(void** state)
+TEST(PressureBetweenSupports)
 {
     const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e9, 1000.0, 9 };
     const double D = strip.youngs * pow(strip.thickness, 3.0) / 12.0, sag = 0.02 * strip.thickness;
@@ -500,7 +500,7 @@ static void TestPressureBetweenSupports(void** state)
 
 /* A strip that is pulled along, and one that is pushed aside in its plane, give way by F L / (E h W) and by
    F L^3 / (3 E I) and shear, whether a clamp or a hinge holds them. */
-static void TestPullAndPush(void** state)
+TEST(PullAndPush)
 {
     const float none[3] = { 0.0f, 0.0f, 0.0f }, tip[2] = { STRIP_LENGTH, 0.5f * STRIP_WIDTH };
     for (int k = 0; k < 8; ++k) {
@@ -528,7 +528,7 @@ static void TestPullAndPush(void** state)
 }
 
 /* A hinge lets the sheet hang, wherever it began; what hangs pulls along itself. */
-static void TestHangsFromHinge(void** state)
+TEST(HangsFromHinge)
 {
     const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e9, 1000.0, 5 };
     const float down[3] = { 0.0f, 0.0f, -9.81f };
@@ -553,7 +553,7 @@ static void Turn(double angle, float rotation[9])
 }
 
 /* What a clamp moves follows it, twice around. */
-static void TestClampThatMoves(void** state)
+TEST(ClampThatMoves)
 {
     const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e9, 1000.0, 5 };
     Beam beam;
@@ -580,7 +580,7 @@ static void TestClampThatMoves(void** state)
 /* ---- Other models ------------------------------------------------------------------------------------------------ */
 
 /* The clamped strip of affine frames, under its own weight; and in its plane, pulled. */
-static void TestModels(void** state)
+TEST(Models)
 {
     const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
     for (int k = 0; k < 4; ++k) {
@@ -631,7 +631,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 }
 
 /* A sheet that sleeps says what it weighs. What may move it wakes it; what cannot does not. */
-static void TestSleep(void** state)
+TEST(Sleep)
 {
     static const float some[3] = { 0.0f, 1e-3f, 0.0f }, at[2] = { 0.5f, 0.5f };
     START_HOST(host);
@@ -737,7 +737,7 @@ static void CheckDetached(Host hosts[2], const kiriSheet sheets[2], kiriSheet de
 
 /* A piece that gets a sheet of its own is held by clamps of its own, along the edge and across, and goes on to the last
    bit. */
-static void TestDetach(void** state)
+TEST(Detach)
 {
     static const float across[4] = { 0.0f, 0.7f, 1.0f, 0.74f };
     Host hosts[2];
@@ -776,7 +776,7 @@ static void TestDetach(void** state)
 }
 
 /* A clamp outlives a piece that it held, and goes with the last one. */
-static void TestDestroyPieces(void** state)
+TEST(DestroyPieces)
 {
     Host host;
     kiriPin clamp, left;
@@ -798,7 +798,7 @@ static void TestDestroyPieces(void** state)
 }
 
 /* Pins come and go in any order; those that are left hold what they held. */
-static void TestPinsComeAndGo(void** state)
+TEST(PinsComeAndGo)
 {
     START_HOST(host);
     kiriSheetDef def = ReactionDef(KIRI_MODEL_LINKS);
@@ -843,7 +843,7 @@ static void TestPinsComeAndGo(void** state)
 
 /* A slit from the clamped edge on gives an arm to another frame, which the clamp did not hold. What it holds on keeps
    its strain, in three fifths of the width, until the motion changes it; the arm begins without any. */
-static void TestCutAtClamp(void** state)
+TEST(CutAtClamp)
 {
     static const float slit[4] = { -0.01f, 0.02f, 0.1f, 0.02f };
     const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e9, 1000.0, 5 };
@@ -868,29 +868,3 @@ static void TestCutAtClamp(void** state)
 }
 
 /* ---- Extremes ---------------------------------------------------------------------------------------------------- */
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestHeavyCantilever),
-        cmocka_unit_test(TestClampAcross),
-        cmocka_unit_test(TestEndLoad),
-        cmocka_unit_test(TestLineLoads),
-        cmocka_unit_test(TestLineAlongCut),
-        cmocka_unit_test(TestPointLoads),
-        cmocka_unit_test(TestReactionsAtRest),
-        cmocka_unit_test(TestReactionsInMotion),
-        cmocka_unit_test(TestHoldsBearWind),
-        cmocka_unit_test(TestPressureBetweenSupports),
-        cmocka_unit_test(TestPullAndPush),
-        cmocka_unit_test(TestHangsFromHinge),
-        cmocka_unit_test(TestClampThatMoves),
-        cmocka_unit_test(TestModels),
-        cmocka_unit_test(TestSleep),
-        cmocka_unit_test(TestDetach),
-        cmocka_unit_test(TestDestroyPieces),
-        cmocka_unit_test(TestPinsComeAndGo),
-        cmocka_unit_test(TestCutAtClamp),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

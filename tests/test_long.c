@@ -262,19 +262,17 @@ static void PlayLong(bool staysOne)
     free(play.before.bytes);
 }
 
-static void TestSheetsThatGo(void** state)
+TEST(SheetsThatGo)
 {
     PlayLong(false);
 }
 
-static void TestSheetThatStays(void** state)
+TEST(SheetThatStays)
 {
     PlayLong(true);
 }
 
-int main(int count, char** arguments)
+SETUP
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestSheetsThatGo), cmocka_unit_test(TestSheetThatStays) };
     period = count > 1 ? LONG_PERIOD : PERIOD;
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

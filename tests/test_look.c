@@ -84,7 +84,7 @@ static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
 /* Frames at an angle t on a circle. Linear weights stretch the surface beside a frame by 3/8 t^2, and crease it there
    by t within two cells, here four edges. With weights that are flat at the frames the stretch is half as much, and the
    curvature, over the circle's, at most 4 more. */
-static void EasedWeightsLeaveNoCrease(void** state)
+TEST(EasedWeightsLeaveNoCrease)
 {
     static const double angles[] = { 0.1, 0.3, 0.6, 1.0 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
@@ -99,7 +99,7 @@ static void EasedWeightsLeaveNoCrease(void** state)
 }
 
 /* The same frames: a smooth surface is nearly the cylinder, a linear one is not. */
-static void SmoothSurfacesAreRound(void** state)
+TEST(SmoothSurfacesAreRound)
 {
     static const double angles[] = { 0.09, 0.26, 0.52 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
@@ -112,7 +112,7 @@ static void SmoothSurfacesAreRound(void** state)
 }
 
 /* Creases: a patch bends by at most 0.2 rad, rms over its region, which is a sag of 9 mm, whatever its neighbors do. */
-static void StrongBendsAreLimited(void** state)
+TEST(StrongBendsAreLimited)
 {
     static const double angles[] = { 0.52, 1.26, 2.4 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
@@ -129,7 +129,7 @@ static void StrongBendsAreLimited(void** state)
 }
 
 /* Frames that turn past back to back: patches sag to neither side there, so the visible surface does not jump. */
-static void BackToBackIsSteady(void** state)
+TEST(BackToBackIsSteady)
 {
     static const double angles[2] = { 3.11, 3.17 };
     double sags[2][2 * (LENGTHWISE + 1)];
@@ -229,7 +229,7 @@ static double SteepestOpening(double end, double slant)
 
 /* Wherever in a cell it ends. Lips that stay together as far as their cell does, and then jump apart, have 2.5 in the
    mean, and up to 3.9. */
-static void SlitsOpenFromTheirEnd(void** state)
+TEST(SlitsOpenFromTheirEnd)
 {
     static const double slants[] = { 0.37, -0.2, 0.5 };
     double sum = 0.0, worst = 0.0;
@@ -241,16 +241,4 @@ static void SlitsOpenFromTheirEnd(void** state)
     if (!(sum / 18.0 < 1.8 && worst < 3.0)) {
         fail_msg("lips open %.3f times as fast as in the mean, up to %.3f", sum / 18.0, worst);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(EasedWeightsLeaveNoCrease),
-        cmocka_unit_test(SmoothSurfacesAreRound),
-        cmocka_unit_test(StrongBendsAreLimited),
-        cmocka_unit_test(BackToBackIsSteady),
-        cmocka_unit_test(SlitsOpenFromTheirEnd),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -120,7 +120,7 @@ static void CheckSolution(kiriMatrix* matrix, int32_t unknowns, uint32_t* seed)
 }
 
 /* One matrix gets pattern after pattern; some cover more pairs than there are elements. */
-static void TestSolves(void** state)
+TEST(Solves)
 {
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
@@ -169,7 +169,7 @@ static void MakeWideElements(uint32_t* seed, int32_t size, int32_t frames, int32
     }
 }
 
-static void TestWidePanels(void** state)
+TEST(WidePanels)
 {
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
@@ -187,7 +187,7 @@ static void TestWidePanels(void** state)
 }
 
 /* The AVX kernel and Eigen give the same bits. */
-static void TestVectors(void** state)
+TEST(Vectors)
 {
     static double other[MOST];
     static const int32_t sizes[3] = { 3, 6, 12 };
@@ -215,7 +215,7 @@ static void TestVectors(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-static void TestCovers(void** state)
+TEST(Covers)
 {
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     uint32_t seed = 5;
@@ -243,7 +243,7 @@ static void TestCovers(void** state)
 }
 
 /* No factor where a pivot is not positive by far; one all the same where only rounding says so. */
-static void TestNotPositive(void** state)
+TEST(NotPositive)
 {
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     kiriMatrix* matrix = kiriMatrix_Create(&memory, 3);
@@ -269,7 +269,7 @@ static void TestNotPositive(void** state)
 }
 
 /* Every target gives these bits. */
-static void TestHashes(void** state)
+TEST(Hashes)
 {
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     for (int k = 0; k < MATRIX_SIZES; ++k) {
@@ -311,7 +311,7 @@ static void FreeCounted(void* user, void* pointer)
 }
 
 /* Neither the host nor malloc is asked for memory after Shape. */
-static void TestNoMemory(void** state)
+TEST(NoMemory)
 {
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(CountAlloc, FreeCounted, NULL);
@@ -330,18 +330,4 @@ static void TestNoMemory(void** state)
         assert_int_equal(requests, 0);
     }
     kiriMemory_FreeAll(&memory);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSolves),
-        cmocka_unit_test(TestWidePanels),
-        cmocka_unit_test(TestVectors),
-        cmocka_unit_test(TestCovers),
-        cmocka_unit_test(TestNotPositive),
-        cmocka_unit_test(TestHashes),
-        cmocka_unit_test(TestNoMemory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -439,9 +439,8 @@ static void CheckKind(const char* name, MakeLayout* make)
 }
 
 #define KIND(name)                                                                                                     \
-    static void Test##name(void** state)                                                                               \
+    TEST(name)                                                                                                         \
     {                                                                                                                  \
-        (void)state;                                                                                                   \
         CheckKind(#name, Make##name);                                                                                  \
     }
 
@@ -466,19 +465,9 @@ KIND(FarLoop)
 KIND(FarComb)
 KIND(FarTwice)
 
-int main(int argc, char** argv)
+SETUP
 {
-    layoutCount = argc > 1 ? atoi(argv[1]) : layoutCount;
-    firstSeed = argc > 2 ? atoi(argv[2]) : firstSeed;
-    cmocka_set_test_filter(argc > 3 ? argv[3] : NULL);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestT),       cmocka_unit_test(TestL),         cmocka_unit_test(TestX),
-        cmocka_unit_test(TestP),       cmocka_unit_test(TestPinwheel),  cmocka_unit_test(TestComb),
-        cmocka_unit_test(TestSlits),   cmocka_unit_test(TestPolygon),   cmocka_unit_test(TestLoop),
-        cmocka_unit_test(TestTwice),   cmocka_unit_test(TestSlitTwice), cmocka_unit_test(TestHairpin),
-        cmocka_unit_test(TestSaw),     cmocka_unit_test(TestBorder),    cmocka_unit_test(TestCircleTwice),
-        cmocka_unit_test(TestAcross),  cmocka_unit_test(TestFarT),      cmocka_unit_test(TestFarLoop),
-        cmocka_unit_test(TestFarComb), cmocka_unit_test(TestFarTwice)
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    layoutCount = count > 1 ? atoi(words[1]) : layoutCount;
+    firstSeed = count > 2 ? atoi(words[2]) : firstSeed;
+    cmocka_set_test_filter(count > 3 ? words[3] : NULL);
 }

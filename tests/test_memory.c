@@ -85,7 +85,7 @@ static kiriSheet AddSheet(Host* host, const Setting* setting)
     return sheet;
 }
 
-static void TestPlainTicks(void** state)
+TEST(PlainTicks)
 {
     static const Setting settings[] = { { KIRI_MODEL_LINKS, 0, 1 },  { KIRI_MODEL_LINKS, 1, 1 },
                                         { KIRI_MODEL_AFFINE, 0, 1 }, { KIRI_MODEL_AFFINE, 1, 1 },
@@ -116,7 +116,7 @@ static void TestPlainTicks(void** state)
 
 /* A long spiral, from its middle, a cell or so a tick. What it leaves grows, and so does the room for it, which
    doubles: so ever fewer ticks ask for memory. */
-static void TestCuttingTicks(void** state)
+TEST(CuttingTicks)
 {
     enum { TICKS = 800 };
     kiriCut cut;
@@ -186,7 +186,7 @@ static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
 
 /* A cut that a budget spreads over ticks, while each 10th request for memory is refused: it is done within three times
    the ticks, no tick stands still, and nothing is lost. */
-static void TestScarceMemoryIsASpentBudget(void** state)
+TEST(ScarceMemoryIsASpentBudget)
 {
     enum { EVERY = 10 };
     const kiriBudget budget = { 64, 700, 700, 0 };
@@ -213,7 +213,7 @@ static void TestScarceMemoryIsASpentBudget(void** state)
 
 /* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take
    the most; and of one with fewer. The detail layer of cotton takes 121. */
-static void TestBytesOfVertices(void** state)
+TEST(BytesOfVertices)
 {
     static const struct {
         int32_t grid;
@@ -228,15 +228,4 @@ static void TestBytesOfVertices(void** state)
         assert_true((double)(host.bytes - before) < cases[i].most * 65.0 * 65.0);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestBytesOfVertices),
-        cmocka_unit_test(TestPlainTicks),
-        cmocka_unit_test(TestCuttingTicks),
-        cmocka_unit_test(TestScarceMemoryIsASpentBudget),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

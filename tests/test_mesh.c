@@ -38,7 +38,7 @@ static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* 
 
 static const float Unit[] = { 0, 0, 1, 0, 1, 1, 0, 1 };
 
-static void RefusesWhatIsNoSheet(void** state)
+TEST(RefusesWhatIsNoSheet)
 {
     const int32_t repeated[] = { 0, 1, 1, 0, 2, 3 }, clockwise[] = { 0, 2, 1, 0, 2, 3 }, twice[] = { 0, 1, 2, 0, 1, 2 };
     const int32_t same[] = { 0, 1, 2, 0, 2, 3, 1, 2, 3 }, one[] = { 0, 1, 2 };
@@ -55,7 +55,7 @@ static void RefusesWhatIsNoSheet(void** state)
     assert_int_equal(Try(thin, 3, one, 1), KIRI_ERROR_MESH);
 }
 
-static void RefusesOverlap(void** state)
+TEST(RefusesOverlap)
 {
     const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
     const float crossing[] = { 0, 0, 4, 0, 2, 3, 0, 2, 2, -1, 4, 2 }, inside[] = { 0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2 };
@@ -70,7 +70,7 @@ static void RefusesOverlap(void** state)
 
 /* A few steps of the lattice wide, beside a triangle that is as thin and ends far away: what floats are given for
    rounding does not let them lie on each other. */
-static void RefusesOverlapOfTheSmallest(void** state)
+TEST(RefusesOverlapOfTheSmallest)
 {
     const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
     const float on[] = { 0, 0, 1e8f, 0, 0, 1, 0.5f, 0, 1.5f, 0, 1.5f, 1 };
@@ -96,7 +96,7 @@ static bool IsApart(const float* a, const float* b)
 }
 
 /* Triangles thrown at random, few enough that often none overlap: against all pairs. */
-static void RefusesOverlapAnywhere(void** state)
+TEST(RefusesOverlapAnywhere)
 {
     enum { TRIANGLES = 12, RANGE = 40 };
     uint32_t seed = 5;
@@ -128,7 +128,7 @@ static void RefusesOverlapAnywhere(void** state)
 
 /* Strips that wind: one outline, and often over themselves. Against all pairs that have no corner in common; where a
    few do, others do, too. */
-static void RefusesStripsOverThemselves(void** state)
+TEST(RefusesStripsOverThemselves)
 {
     enum { LINKS = 24, POINTS = 2 * (LINKS + 1), TRIANGLES = 2 * LINKS };
     uint32_t seed = 11;
@@ -168,7 +168,7 @@ static void RefusesStripsOverThemselves(void** state)
 }
 
 /* 20 000 triangles within 1e-4 of the sheet, and one far away; then one more in the crowd, on others. */
-static void TakesCrowds(void** state)
+TEST(TakesCrowds)
 {
     enum { SIDE = 100, VERTICES = (SIDE + 1) * (SIDE + 1), TRIANGLES = 2 * SIDE * SIDE };
     static float points[2 * (VERTICES + 6)];
@@ -185,7 +185,7 @@ static void TakesCrowds(void** state)
 }
 
 /* All triangles around one vertex. */
-static void TakesHubs(void** state)
+TEST(TakesHubs)
 {
     enum { SPOKES = 3000 };
     static float points[2 * (SPOKES + 1)];
@@ -201,7 +201,7 @@ static void TakesHubs(void** state)
 }
 
 /* Nine triangles wound twice around a vertex: no edge is used twice, but they lie on each other. */
-static void RefusesWindingTwice(void** state)
+TEST(RefusesWindingTwice)
 {
     const float ring[] = { 0, 0, 4, 0, 3, 3, 0, 4, -3, 3, -4, 0, -3, -3, 0, -4, 3, -3 };
     int32_t indices[24];
@@ -220,26 +220,10 @@ static void RefusesWindingTwice(void** state)
 
 /* Doubled vertices are the lips of a cut: it ends where the vertex is single, here at the outline. Squares that share a
    corner alone have a vertex each. */
-static void DividesVertices(void** state)
+TEST(DividesVertices)
 {
     const float slit[] = { 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 1, 0 }, pinch[] = { 0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2 };
     const int32_t lips[] = { 0, 1, 4, 0, 4, 3, 6, 2, 5, 6, 5, 4 }, squares[] = { 0, 1, 3, 0, 3, 2, 3, 4, 6, 3, 6, 5 };
     CheckTaken(slit, 7, lips, 4, 2, 8);
     CheckTaken(pinch, 7, squares, 4, 2, 8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(RefusesWhatIsNoSheet),
-        cmocka_unit_test(RefusesOverlap),
-        cmocka_unit_test(RefusesOverlapOfTheSmallest),
-        cmocka_unit_test(RefusesOverlapAnywhere),
-        cmocka_unit_test(RefusesStripsOverThemselves),
-        cmocka_unit_test(RefusesWindingTwice),
-        cmocka_unit_test(TakesCrowds),
-        cmocka_unit_test(TakesHubs),
-        cmocka_unit_test(DividesVertices),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

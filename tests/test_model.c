@@ -83,7 +83,7 @@ static uint64_t CutInTwo(const Choice* choice, float* fallen)
     return hash;
 }
 
-static void CutsAllModels(void** state)
+TEST(CutsAllModels)
 {
     uint64_t hashes[CHOICES];
     for (int k = 0; k < CHOICES; ++k) {
@@ -103,7 +103,7 @@ static double LengthOf(const float* column)
 }
 
 /* A piece is cut out of a sheet that hangs and is stretched: its new frame goes on with the stretch. */
-static void NewFramesAreStretched(void** state)
+TEST(NewFramesAreStretched)
 {
     static const float loop[10] = { 0.62f, 0.62f, 0.71f, 0.63f, 0.7f, 0.72f, 0.61f, 0.71f, 0.62f, 0.62f };
     Choice choice = { KIRI_MODEL_AFFINE, 0, 0, 1 };
@@ -137,7 +137,7 @@ static void NewFramesAreStretched(void** state)
 /* ---- Totals ---- */
 
 /* A free sheet keeps its momentum, and energy only falls. */
-static void TotalsHold(void** state)
+TEST(TotalsHold)
 {
     for (int k = 0; k < CHOICES; ++k) {
         kiriSheetDef def = DefOf(&choices[k]);
@@ -174,7 +174,7 @@ static void TotalsHold(void** state)
 /* ---- Planes ---- */
 
 /* A sheet whose axes are slanted, with forces across its plane and a hold off it, stays in its plane. */
-static void PlanarSheetsStayInTheirPlane(void** state)
+TEST(PlanarSheetsStayInTheirPlane)
 {
     for (int k = 0; k < CHOICES; ++k) {
         uint32_t seed = 31;
@@ -214,7 +214,7 @@ static void PlanarSheetsStayInTheirPlane(void** state)
 }
 
 /* In its plane a sheet moves alike with and without motion across it. */
-static void PlanarEqualsSpace(void** state)
+TEST(PlanarEqualsSpace)
 {
     for (int k = 0; k < CHOICES; ++k) {
         kiriFrameState states[2];
@@ -240,7 +240,7 @@ static void PlanarEqualsSpace(void** state)
 }
 
 /* A sheet that is pulled at one end, and was not quite flat, becomes flat: tension does not make it buckle. */
-static void TensionDoesNotBuckle(void** state)
+TEST(TensionDoesNotBuckle)
 {
     for (int k = 0; k < CHOICES; ++k) {
         static const float pull[3] = { 4.0f, 0.0f, 0.0f }, push[3] = { 0.0f, 0.0f, 1e-3f };
@@ -273,7 +273,7 @@ static void TensionDoesNotBuckle(void** state)
 /* ---- Memory ---- */
 
 /* A tick without a cut allocates nothing; a cut survives every refusal. */
-static void MemoryIsKept(void** state)
+TEST(MemoryIsKept)
 {
     static const float line[4] = { -0.2f, 0.45f, 1.2f, 0.55f };
     for (int k = 0; k < CHOICES; ++k) {
@@ -318,7 +318,7 @@ static kiriResult TryDef(Host* host, int32_t model, int32_t planar, int32_t poin
     return Host_TryRectangle(host, &def, 1.0f, 1.0f, 3, 3, &sheet);
 }
 
-static void ArgumentsAreChecked(void** state)
+TEST(ArgumentsAreChecked)
 {
     static const float out[9] = { 0.8f, 0.0f, 0.6f, 0.0f, 1.0f, 0.0f, -0.6f, 0.0f, 0.8f };
     static const float turned[9] = { 0.8f, 0.6f, 0.0f, -0.6f, 0.8f, 0.0f, 0.0f, 0.0f, 1.0f },
@@ -342,14 +342,4 @@ static void ArgumentsAreChecked(void** state)
     assert_true(fabsf(now.position[0] - 0.2f) < 1e-6f && fabsf(now.position[2]) < 1e-6f);
     assert_true(fabsf(now.rotation[1] - 0.6f) < 1e-6f && now.held == 1);
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(CutsAllModels), cmocka_unit_test(NewFramesAreStretched), cmocka_unit_test(TotalsHold),
-        cmocka_unit_test(PlanarSheetsStayInTheirPlane), cmocka_unit_test(PlanarEqualsSpace),
-        cmocka_unit_test(TensionDoesNotBuckle), cmocka_unit_test(MemoryIsKept), cmocka_unit_test(ArgumentsAreChecked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

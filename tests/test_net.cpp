@@ -3,18 +3,11 @@
 #include "../samples/games/net_game.h"
 #include "../samples/games/play.h"
 #include "../samples/games/script.h"
+#include "support.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-extern "C" {
-#include <cmocka.h>
-}
 
 static GameStatus StatusOf(const Play& play)
 {
@@ -46,7 +39,7 @@ static GameStatus PlayScript(int level, int64_t* peak)
     return status;
 }
 
-static void TestScriptsWin(void**)
+TEST(ScriptsWin)
 {
     for (int level = 1; level <= netGame.levels; ++level) {
         int64_t peak;
@@ -58,7 +51,7 @@ static void TestScriptsWin(void**)
 }
 
 /* Who does nothing wins nothing. */
-static void TestNothingWinsNothing(void**)
+TEST(NothingWinsNothing)
 {
     for (int level = 1; level <= netGame.levels; ++level) {
         Play play;
@@ -71,7 +64,7 @@ static void TestNothingWinsNothing(void**)
     }
 }
 
-static void TestReplayIsTheSame(void**)
+TEST(ReplayIsTheSame)
 {
     int64_t peak;
     GameStatus first = PlayScript(3, &peak), second = PlayScript(3, &peak);
@@ -136,7 +129,7 @@ static void TakeBack(int level, size_t stroke, int more)
     Script_Free(&script);
 }
 
-static void TestStrokesAreTakenBack(void**)
+TEST(StrokesAreTakenBack)
 {
     TakeBack(1, 0, 180); /* the crate has come to rest elsewhere */
     TakeBack(4, 0, 60);
@@ -146,7 +139,7 @@ static void TestStrokesAreTakenBack(void**)
 }
 
 /* A stroke in the air takes nothing's place: the one before it is taken back. While a stroke is made it ends. */
-static void TestOnlyCutsAreTakenBack(void**)
+TEST(OnlyCutsAreTakenBack)
 {
     Script script;
     Play play;
@@ -172,7 +165,7 @@ static void TestOnlyCutsAreTakenBack(void**)
 }
 
 /* A swipe parts the rope of level 1 whenever it comes, whether the rope swings up or down. */
-static void TestSwipesPart(void**)
+TEST(SwipesPart)
 {
     for (int start = 10; start < 70; ++start) {
         Play play;
@@ -237,7 +230,7 @@ static b2Vec2 GivenToSheets(const NetGame& game)
 
 /* A crate falls on a rope and is caught, in level 1: until somebody cuts, nothing but weight, pins and air acts on
    both. */
-static void TestMomentumIsKept(void**)
+TEST(MomentumIsKept)
 {
     Play play;
     assert_true(Play_Start(&play, &netGame, 1));
@@ -256,15 +249,4 @@ static void TestMomentumIsKept(void**)
     assert_true(fastest > 0.3f && slowest < 0.1f * fastest); /* it fell, and was caught */
     assert_true(most < 0.01f * fastest);
     Play_Stop(&play);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestScriptsWin),           cmocka_unit_test(TestNothingWinsNothing),
-        cmocka_unit_test(TestReplayIsTheSame),      cmocka_unit_test(TestSwipesPart),
-        cmocka_unit_test(TestMomentumIsKept),       cmocka_unit_test(TestStrokesAreTakenBack),
-        cmocka_unit_test(TestOnlyCutsAreTakenBack),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static void CheckPoints(const Pile* with, const Pile* without)
 }
 
 /* With contacts at edges, with sheets that touch each other or do not, and with cuts that take effect. */
-static void TestAllElseIsTheSame(void** state)
+TEST(AllElseIsTheSame)
 {
     for (int32_t which = 0; which < 4; ++which) {
         const int32_t skinning = which % 2, touches = which / 2;
@@ -105,7 +105,7 @@ static void TestAllElseIsTheSame(void** state)
 }
 
 /* Normals that are asked for in between are there at once; those of a sheet that makes none are refused. */
-static void TestNormalsComeAndGo(void** state)
+TEST(NormalsComeAndGo)
 {
     Pile piles[2];
     kiriSheetSettings settings;
@@ -136,13 +136,4 @@ static void TestNormalsComeAndGo(void** state)
     assert_null(Host_Mesh(&piles[1].host, sheet).normals);
     Host_Stop(&piles[0].host);
     Host_Stop(&piles[1].host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestAllElseIsTheSame),
-        cmocka_unit_test(TestNormalsComeAndGo),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

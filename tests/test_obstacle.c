@@ -68,7 +68,7 @@ static double DistanceBySupport(const kiriObstacleShape* shape, kiriVec3 p, kiri
 }
 
 /* Random points around each shape: the distance is that of the supporting plane, and the normal is that plane's. */
-static void DistanceIsThatOfTheSupportingPlane(void** state)
+TEST(DistanceIsThatOfTheSupportingPlane)
 {
     uint32_t seed = 1;
     for (int which = 1; which < SOLIDS; ++which) {
@@ -90,7 +90,7 @@ static void DistanceIsThatOfTheSupportingPlane(void** state)
 }
 
 /* Inside a polygon a planar sheet goes out sideways, however near the cap is. */
-static void PlanarSheetsGoOutSideways(void** state)
+TEST(PlanarSheetsGoOutSideways)
 {
     Solid solid;
     MakeSolid(&solid, 3);
@@ -102,7 +102,7 @@ static void PlanarSheetsGoOutSideways(void** state)
 }
 
 /* Moving points stop where a walk in small steps first comes within the gap. */
-static void EntersWhereAWalkDoes(void** state)
+TEST(EntersWhereAWalkDoes)
 {
     enum { STEPS = 20000 };
     const double gap = 0.01;
@@ -130,7 +130,7 @@ static void EntersWhereAWalkDoes(void** state)
 }
 
 /* A point at 100 m/s does not pass a wall of 1 cm: its way of 1.7 m in a tick goes right through. */
-static void FastPointsMeetThinWalls(void** state)
+TEST(FastPointsMeetThinWalls)
 {
     Solid solid;
     MakeSolid(&solid, 3);
@@ -145,7 +145,7 @@ static void FastPointsMeetThinWalls(void** state)
     assert_true(nearest.normal.x == -1.0);
 }
 
-static void CirclePointsAreEven(void** state)
+TEST(CirclePointsAreEven)
 {
     for (int32_t i = 0; i < 64; ++i) {
         kiriVec2 p = kiriCircle_At(i, 64);
@@ -223,7 +223,7 @@ static kiriObstacleState StateOf(const Host* host, kiriObstacle obstacle)
         assert_true(kiriWorld_GetLastError(host.world)[0] != '\0' && Host_Hash(&host) == hashBefore);                  \
     } while (0)
 
-static void BadDefsAreRefused(void** state)
+TEST(BadDefsAreRefused)
 {
     static const float concave[8] = { -0.3f, -0.2f, 0.3f, -0.2f, 0.0f, -0.1f, -0.3f, 0.2f };
     static const float clockwise[6] = { 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f },
@@ -281,7 +281,7 @@ static void BadDefsAreRefused(void** state)
 }
 
 /* There it would be read as no float after a tick. Short of that it goes on, and comes back. */
-static void WhereFloatsEndNothingMoves(void** state)
+TEST(WhereFloatsEndNothingMoves)
 {
     const float beyond[3] = { 0.0f, 5e37f, 0.0f }, within[3] = { 4e37f, -4e37f, 4e37f }, zero[3] = { 0 };
     for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
@@ -308,7 +308,7 @@ static void WhereFloatsEndNothingMoves(void** state)
     }
 }
 
-static void StaleIdsAreRefused(void** state)
+TEST(StaleIdsAreRefused)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
@@ -330,7 +330,7 @@ static void StaleIdsAreRefused(void** state)
 }
 
 /* Half the contact thickness above the floor it comes to rest, and sleeps. The floor bears its weight all the time. */
-static void PlateRestsOnAFloor(void** state)
+TEST(PlateRestsOnAFloor)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
@@ -364,7 +364,7 @@ static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
 }
 
 /* A plate that starts in a floor comes out, but no faster than the floor's pushSpeed. */
-static void PushSpeedIsKept(void** state)
+TEST(PushSpeedIsKept)
 {
     static const float speeds[] = { 0.05f, 0.1f, 1.0f };
     for (int k = 0; k < 3; ++k) {
@@ -391,7 +391,7 @@ static void PushSpeedIsKept(void** state)
 }
 
 /* Whatever takes a box from below a plate that sleeps on it wakes the plate; what happens far away does not. */
-static void SleepersWake(void** state)
+TEST(SleepersWake)
 {
     enum { DESTROY, PUT, MOVE, MAKE, CHURN, CASES };
     const float away[3] = { 3.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.1f }, none[3] = { 0 };
@@ -422,7 +422,7 @@ static void SleepersWake(void** state)
 }
 
 /* Too slow to see, an obstacle still carries along what sleeps on it. */
-static void SlowLiftsCarry(void** state)
+TEST(SlowLiftsCarry)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
@@ -437,7 +437,7 @@ static void SlowLiftsCarry(void** state)
     Host_Stop(&host);
 }
 
-static void LiftsAndConveyorsCarry(void** state)
+TEST(LiftsAndConveyorsCarry)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
@@ -454,7 +454,7 @@ static void LiftsAndConveyorsCarry(void** state)
 }
 
 /* What two plates lose, the crate that they fall on gets; and it is not more than its mass can take. */
-static void SheetsShareAnObstacle(void** state)
+TEST(SheetsShareAnObstacle)
 {
     START_HOST(host);
     const float noGravity[3] = { 0 };
@@ -529,7 +529,7 @@ static double FastestOverBox(int32_t skinning, float beside)
 
 /* An obstacle cannot move what is held. It does not move the other frames in its place, which hardly carry the material
    there: they would have to go many times as far. */
-static void ObstaclesDoNotMoveWhatIsHeld(void** state)
+TEST(ObstaclesDoNotMoveWhatIsHeld)
 {
     for (int i = 0; i < 4; ++i) {
         assert_true(FastestOverBox(i % 2, i / 2 == 0 ? 0.0f : 0.1f) < 20.0);
@@ -537,7 +537,7 @@ static void ObstaclesDoNotMoveWhatIsHeld(void** state)
 }
 
 /* Edge-on at 100 m/s against a wall of 1 cm. */
-static void FastSheetsDoNotPass(void** state)
+TEST(FastSheetsDoNotPass)
 {
     for (int substeps = 1; substeps <= 4; substeps += 3) {
         START_HOST(host);
@@ -566,7 +566,7 @@ static void FastSheetsDoNotPass(void** state)
 
 /* A cloth of many frames, for which no step settles which of its points push. What crumples may leave a few vertices
    between its touches; frames do not pass. At 100 m/s with 2 substeps chance decides how it crumples. */
-static void FastClothsDoNotPass(void** state)
+TEST(FastClothsDoNotPass)
 {
     static const float speeds[] = { 40.0f, 100.0f, 100.0f };
     static const int substeps[] = { 2, 2, 8 }, most[] = { 10, 40, 10 }; /* of 1000 vertices */
@@ -596,7 +596,7 @@ static void FastClothsDoNotPass(void** state)
     }
 }
 
-static void GroupsTellWhoTouches(void** state)
+TEST(GroupsTellWhoTouches)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
@@ -632,7 +632,7 @@ static kiriSheetDef UprightPlate(float contactThickness, float height)
 }
 
 /* A planar sheet comes to rest on a prism without end along its normal, and within a box's height. */
-static void PlanarSheetsRestOnPolygons(void** state)
+TEST(PlanarSheetsRestOnPolygons)
 {
     for (int which = 0; which < 3; ++which) {
         START_HOST(host);
@@ -652,7 +652,7 @@ static void PlanarSheetsRestOnPolygons(void** state)
 }
 
 /* Two corners that point up hold a plate of two triangles between its vertices. */
-static void PlanarBordersRestOnCorners(void** state)
+TEST(PlanarBordersRestOnCorners)
 {
     START_HOST(host);
     for (int i = 0; i < 2; ++i) {
@@ -673,7 +673,7 @@ static void PlanarBordersRestOnCorners(void** state)
 }
 
 /* Two triangles, 0.2 m wide, bridge balls of 2 cm and rods: flat, and as the border of a planar sheet. */
-static void RoundObstaclesHoldBetweenVertices(void** state)
+TEST(RoundObstaclesHoldBetweenVertices)
 {
     static const float places[4][2] = { { -0.06f, -0.05f }, { 0.07f, -0.06f }, { 0.05f, 0.06f }, { -0.05f, 0.07f } };
     static const int32_t types[3] = { KIRI_OBSTACLE_SPHERE, KIRI_OBSTACLE_CAPSULE, KIRI_OBSTACLE_CYLINDER };
@@ -709,7 +709,7 @@ static void RoundObstaclesHoldBetweenVertices(void** state)
 }
 
 /* An obstacle goes on by its velocities: turned about its axis in the end, and where it should be. */
-static void ObstaclesAdvance(void** state)
+TEST(ObstaclesAdvance)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
@@ -744,7 +744,7 @@ static void FillWorld(Host* host, kiriSheet sheets[2])
     }
 }
 
-static void SameCallsSameBits(void** state)
+TEST(SameCallsSameBits)
 {
     uint64_t hashes[2];
     for (int run = 0; run < 2; ++run) {
@@ -760,7 +760,7 @@ static void SameCallsSameBits(void** state)
 }
 
 /* What was refused has not happened. */
-static void RefusedTicksChangeNothing(void** state)
+TEST(RefusedTicksChangeNothing)
 {
     kiriSheet sheets[2];
     START_HOST(host);
@@ -791,7 +791,7 @@ static void RefusedTicksChangeNothing(void** state)
     Host_Stop(&host);
 }
 
-static void CreationMayBeRefused(void** state)
+TEST(CreationMayBeRefused)
 {
     START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PRISM);
@@ -813,7 +813,7 @@ static void CreationMayBeRefused(void** state)
 }
 
 /* What touched once takes no memory to touch again. */
-static void TouchingAgainAllocatesNothing(void** state)
+TEST(TouchingAgainAllocatesNothing)
 {
     kiriSheet sheets[2];
     START_HOST(host);
@@ -836,7 +836,7 @@ static void TouchingAgainAllocatesNothing(void** state)
 }
 
 /* A sheet that swings from a corner is nowhere farther after a tick than was said before it. */
-static void ReachHoldsTheTick(void** state)
+TEST(ReachHoldsTheTick)
 {
     START_HOST(host);
     host.every = 10;
@@ -861,38 +861,4 @@ static void ReachHoldsTheTick(void** state)
     }
     assert_true(most < 0.5); /* and is not said to be anywhere */
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(DistanceIsThatOfTheSupportingPlane),
-        cmocka_unit_test(PlanarSheetsGoOutSideways),
-        cmocka_unit_test(EntersWhereAWalkDoes),
-        cmocka_unit_test(FastPointsMeetThinWalls),
-        cmocka_unit_test(CirclePointsAreEven),
-        cmocka_unit_test(BadDefsAreRefused),
-        cmocka_unit_test(StaleIdsAreRefused),
-        cmocka_unit_test(WhereFloatsEndNothingMoves),
-        cmocka_unit_test(PlateRestsOnAFloor),
-        cmocka_unit_test(PushSpeedIsKept),
-        cmocka_unit_test(SleepersWake),
-        cmocka_unit_test(SlowLiftsCarry),
-        cmocka_unit_test(LiftsAndConveyorsCarry),
-        cmocka_unit_test(SheetsShareAnObstacle),
-        cmocka_unit_test(ObstaclesDoNotMoveWhatIsHeld),
-        cmocka_unit_test(FastSheetsDoNotPass),
-        cmocka_unit_test(FastClothsDoNotPass),
-        cmocka_unit_test(GroupsTellWhoTouches),
-        cmocka_unit_test(PlanarSheetsRestOnPolygons),
-        cmocka_unit_test(PlanarBordersRestOnCorners),
-        cmocka_unit_test(RoundObstaclesHoldBetweenVertices),
-        cmocka_unit_test(ObstaclesAdvance),
-        cmocka_unit_test(SameCallsSameBits),
-        cmocka_unit_test(RefusedTicksChangeNothing),
-        cmocka_unit_test(CreationMayBeRefused),
-        cmocka_unit_test(TouchingAgainAllocatesNothing),
-        cmocka_unit_test(ReachHoldsTheTick),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

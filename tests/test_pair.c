@@ -29,7 +29,7 @@ static kiriSheet AddSquare(Host* host, const kiriSheetDef* def)
     return Host_AddRectangle(host, &own, 0.2f, 0.2f, 16, 16);
 }
 
-static void TestPairsAreFoundWhereNear(void** state)
+TEST(PairsAreFoundWhereNear)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const struct {
@@ -71,7 +71,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 }
 
 /* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
-static void TestWhoWasAloneIsFound(void** state)
+TEST(WhoWasAloneIsFound)
 {
     START_HOST(host);
     host.every = 30;
@@ -108,7 +108,7 @@ static kiriSheet AddPinnedSquare(Host* host, float z, kiriPin pins[4])
 
 /* A sheet that fell asleep untouched is met by another: from below, so that it is the upper one, or from above. A tick
    that is refused on the way changes nothing. */
-static void TestSleeperIsMet(void** state)
+TEST(SleeperIsMet)
 {
     for (int way = 0; way < 4; ++way) {
         const float z = way % 2 == 0 ? -0.3f : 0.3f;
@@ -147,7 +147,7 @@ static void TestSleeperIsMet(void** state)
     }
 }
 
-static void TestGroupsApart(void** state)
+TEST(GroupsApart)
 {
     START_HOST(host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
@@ -197,7 +197,7 @@ static void TickUntilAsleep(Host* host, const kiriSheet* sheets, int count, int 
     assert_true(ticks < most);
 }
 
-static void TestPileRestsInOrder(void** state)
+TEST(PileRestsInOrder)
 {
     Host host;
     kiriSheet sheets[PILE];
@@ -216,7 +216,7 @@ static void TestPileRestsInOrder(void** state)
 }
 
 /* In a high pile the lower sheets are stopped in the tick in which those above still fall. */
-static void TestHighPileRests(void** state)
+TEST(HighPileRests)
 {
     enum { HIGH = 16 };
     kiriSheet sheets[HIGH];
@@ -232,7 +232,7 @@ static void TestHighPileRests(void** state)
     Host_Stop(&host);
 }
 
-static void TestNeverCrossOnTheirWay(void** state)
+TEST(NeverCrossOnTheirWay)
 {
     Host host;
     kiriSheet sheets[PILE];
@@ -244,7 +244,7 @@ static void TestNeverCrossOnTheirWay(void** state)
     Host_Stop(&host);
 }
 
-static void TestWhatTouchesWakesAndFallsAsleepTogether(void** state)
+TEST(WhatTouchesWakesAndFallsAsleepTogether)
 {
     Host host;
     kiriSheet sheets[PILE];
@@ -291,14 +291,14 @@ static double Sag(bool isLoaded)
     return sag;
 }
 
-static void TestLowerSheetFeelsTheWeight(void** state)
+TEST(LowerSheetFeelsTheWeight)
 {
     double own = Sag(false), loaded = Sag(true);
     assert_true(own > 0.0 && own < 0.2 && loaded > 1.05 * own && loaded < 0.2);
 }
 
 /* Two sheets that fall together do so as one that falls alone. */
-static void TestFallingPairFallsFreely(void** state)
+TEST(FallingPairFallsFreely)
 {
     START_HOST(host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
@@ -316,7 +316,7 @@ static void TestFallingPairFallsFreely(void** state)
 }
 
 /* A square is cut out of a sheet that hangs, and falls clear of it. */
-static void TestPieceFallsClear(void** state)
+TEST(PieceFallsClear)
 {
     static const float square[] = { 0.35f, 0.3f, 0.65f, 0.3f, 0.65f, 0.6f, 0.35f, 0.6f, 0.35f, 0.3f };
     START_HOST(host);
@@ -376,7 +376,7 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
     return crossing;
 }
 
-static void TestFoldsStayApart(void** state)
+TEST(FoldsStayApart)
 {
     uint64_t hashes[2];
     assert_true(FoldOnce(0, &hashes[0]) > 50);
@@ -386,7 +386,7 @@ static void TestFoldsStayApart(void** state)
     assert_true(hashes[0] == hashes[1]);
 }
 
-static void TestSameCallsSameBits(void** state)
+TEST(SameCallsSameBits)
 {
     uint64_t hashes[2];
     for (int run = 0; run < 2; ++run) {
@@ -400,7 +400,7 @@ static void TestSameCallsSameBits(void** state)
     assert_true(hashes[0] == hashes[1]);
 }
 
-static void TestPlainTicksAllocateNothing(void** state)
+TEST(PlainTicksAllocateNothing)
 {
     Host host;
     kiriSheet sheets[PILE];
@@ -416,7 +416,7 @@ static void TestPlainTicksAllocateNothing(void** state)
 }
 
 /* A tick that is refused leaves the world as it was, and the next ones go on as if nothing had been. */
-static void TestRefusedTicksChangeNothing(void** state)
+TEST(RefusedTicksChangeNothing)
 {
     enum { TICKS = 6 };
     uint64_t expected = 0;
@@ -439,26 +439,4 @@ static void TestRefusedTicksChangeNothing(void** state)
         assert_true(Host_Hash(&host) == expected);
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestPairsAreFoundWhereNear),
-        cmocka_unit_test(TestWhoWasAloneIsFound),
-        cmocka_unit_test(TestSleeperIsMet),
-        cmocka_unit_test(TestGroupsApart),
-        cmocka_unit_test(TestPileRestsInOrder),
-        cmocka_unit_test(TestHighPileRests),
-        cmocka_unit_test(TestNeverCrossOnTheirWay),
-        cmocka_unit_test(TestWhatTouchesWakesAndFallsAsleepTogether),
-        cmocka_unit_test(TestLowerSheetFeelsTheWeight),
-        cmocka_unit_test(TestFallingPairFallsFreely),
-        cmocka_unit_test(TestPieceFallsClear),
-        cmocka_unit_test(TestFoldsStayApart),
-        cmocka_unit_test(TestSameCallsSameBits),
-        cmocka_unit_test(TestPlainTicksAllocateNothing),
-        cmocka_unit_test(TestRefusedTicksChangeNothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

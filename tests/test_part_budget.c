@@ -288,7 +288,7 @@ static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
 }
 
 /* Cuts in another sheet take all of a tick, or what they need, and leave enough. */
-static void TestOthersAreCut(void** state)
+TEST(OthersAreCut)
 {
     static const kiriBudget budgets[] = { { 0, 0, 20, 0 }, { 40, 100, 20, 0 }, { 40, 400, 100, 0 } };
     for (size_t i = 0; i < sizeof(budgets) / sizeof(*budgets); ++i) {
@@ -298,7 +298,7 @@ static void TestOthersAreCut(void** state)
 }
 
 /* The part is what it would be at once. */
-static void TestDisturbed(void** state)
+TEST(Disturbed)
 {
     for (int disturbance = 0; disturbance < DISTURBANCES; ++disturbance) {
         Host hosts[2];
@@ -364,7 +364,7 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
     Host_Stop(&hosts[1]);
 }
 
-static void TestSmallSheets(void** state)
+TEST(SmallSheets)
 {
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 8; ++run) {
@@ -374,7 +374,7 @@ static void TestSmallSheets(void** state)
     assert_true(waited > 20);
 }
 
-static void TestLargeSheets(void** state)
+TEST(LargeSheets)
 {
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 2; ++run) {
@@ -382,15 +382,4 @@ static void TestLargeSheets(void** state)
         RunAtRandom(run, 70, &budget, &waited);
     }
     assert_true(waited > 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSmallSheets),
-        cmocka_unit_test(TestLargeSheets),
-        cmocka_unit_test(TestOthersAreCut),
-        cmocka_unit_test(TestDisturbed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,7 +84,7 @@ static int32_t ListFrames(Host* host, kiriSheet sheet, int32_t stays, kiriFrame*
     return count;
 }
 
-static void TestManyAreAsOneByOne(void** state)
+TEST(ManyAreAsOneByOne)
 {
     static kiriFrame frames[MOST_PIECES];
     static kiriSheet sheets[2][MOST_PIECES];
@@ -116,7 +116,7 @@ static void TestManyAreAsOneByOne(void** state)
 }
 
 /* Of several sheets, and frames of one piece more than once. */
-static void TestOfSeveralSheets(void** state)
+TEST(OfSeveralSheets)
 {
     START_HOST(host);
     kiriSheetDef def = DefOf(16);
@@ -170,7 +170,7 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
 
 /* Another material gives frames other masses, which the next commit counts exactly: in a part that leaves before it,
    too. */
-static void TestPartsCountOtherMassesExactly(void** state)
+TEST(PartsCountOtherMassesExactly)
 {
     Host hosts[2];
     for (int k = 0; k < 2; ++k) {
@@ -225,7 +225,7 @@ static kiriResult PartAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
 }
 
 /* The same calls to a sheet that is made anew after each cut: what is left is what a rebuild would give. */
-static void TestLeftIsAsFromScratch(void** state)
+TEST(LeftIsAsFromScratch)
 {
     int32_t parted = 0;
     for (uint32_t run = 1; run <= 3; ++run) {
@@ -283,7 +283,7 @@ static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
 /* ---- What is left ---- */
 
 /* Arrays that the host has stay as they were. What has left is neither in the mesh nor hit. */
-static void TestGoneIsNotSeen(void** state)
+TEST(GoneIsNotSeen)
 {
     kiriSheetDef def = DefOf(24);
     START_HOST(host);
@@ -323,7 +323,7 @@ static void TestGoneIsNotSeen(void** state)
 }
 
 /* A small sheet falls through the place of a removed piece in a large one that is held, and lies on it beside. */
-static void TestGoneTouchesNothing(void** state)
+TEST(GoneTouchesNothing)
 {
     START_HOST(host);
     kiriSheetDef def = DefOf(24), small = DefOf(8);
@@ -361,7 +361,7 @@ static void TestGoneTouchesNothing(void** state)
 
 /* A call does what one tick's samples pay for, and the coming ticks have less; the rest of many pieces is made tick by
    tick, and no tick spends more than it has. In the end all is as without a budget. */
-static void TestCallsKeepToTheBudget(void** state)
+TEST(CallsKeepToTheBudget)
 {
     enum { PIECES = 36, SAMPLES = 3000 };
     uint64_t layouts[2] = { 0, 0 };
@@ -414,7 +414,7 @@ static void TestCallsKeepToTheBudget(void** state)
 }
 
 /* Destroying pieces counts, too, of all sheets in one call: coming ticks pay for it. */
-static void TestDestroyingIsOnAccount(void** state)
+TEST(DestroyingIsOnAccount)
 {
     const kiriBudget budget = { 0, 0, 50, 0 };
     int32_t paid[2] = { 0, 0 };
@@ -445,7 +445,7 @@ static void TestDestroyingIsOnAccount(void** state)
 }
 
 /* In whatever stage the work is. The world is validated after every tick. */
-static void TestUnderBudgets(void** state)
+TEST(UnderBudgets)
 {
     int32_t waited[KIRI_STAGE_COUNT] = { 0 }, finished = 0;
     for (uint32_t run = 1; run <= 4; ++run) {
@@ -527,7 +527,7 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
 }
 
 /* What comes of it is what comes of it without a budget. */
-static void TestWaitingChangesNothing(void** state)
+TEST(WaitingChangesNothing)
 {
     static const kiriBudget budgets[2] = { { 0, 50, 20, 0 }, { 0, 0, 0, 0 } };
     Host hosts[2];
@@ -560,7 +560,7 @@ static void TestWaitingChangesNothing(void** state)
 }
 
 /* A piece that waits to go is not seen, not hit and not found, and nothing touches it. */
-static void TestGoneIsGone(void** state)
+TEST(GoneIsGone)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
@@ -626,7 +626,7 @@ static void TestGoneIsGone(void** state)
 }
 
 /* What waits to be detached may be destroyed, and something has to be left all the time. */
-static void TestAskedTwice(void** state)
+TEST(AskedTwice)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
@@ -653,7 +653,7 @@ static void TestAskedTwice(void** state)
 }
 
 /* The largest piece waits to be detached: crumbs are below the next one, too, for the sheet must not be left empty. */
-static void TestCrumbsWhileTheLargestLeaves(void** state)
+TEST(CrumbsWhileTheLargestLeaves)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
@@ -678,7 +678,7 @@ static void TestCrumbsWhileTheLargestLeaves(void** state)
 
 /* Four strips slide down a slope, and in the second world one goes. The contacts of the others are remembered, whatever number
    the vertices of a strip get. A part has its own patches, so other vertices touch. */
-static void TestTouchesGoOn(void** state)
+TEST(TouchesGoOn)
 {
     for (int detach = 0; detach < 2; ++detach) {
         Host hosts[2];
@@ -741,7 +741,7 @@ static int32_t RunWait(Host* host, Wait* wait, int32_t ticks, int32_t refuseFrom
 }
 
 /* Memory that is refused in the tick in which pieces go is an error of that tick, and they wait on: no more. */
-static void TestWaitingIsPatient(void** state)
+TEST(WaitingIsPatient)
 {
     int32_t refused = 0, ticks;
     bool isDone = false;
@@ -803,7 +803,7 @@ static void TryShape(float width, float height, int32_t columns, int32_t rows, i
 }
 
 /* What used to hang: more frames than cells, by count or by rigidArea. */
-static void TestFewCells(void** state)
+TEST(FewCells)
 {
     static const int32_t resolutions[] = { 1, 2, 3, 4, 8, 24, 96 }, frames[] = { 1, 2, 5, 24 };
     static const float heights[] = { 0.01f, 0.1f, 1.0f }, rigidAreas[] = { 0.0f, 1e-4f, 5e-3f };
@@ -817,27 +817,4 @@ static void TestFewCells(void** state)
         }
     }
     assert_true(refused > 20 && tried - refused > 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestManyAreAsOneByOne),
-        cmocka_unit_test(TestOfSeveralSheets),
-        cmocka_unit_test(TestPartsCountOtherMassesExactly),
-        cmocka_unit_test(TestLeftIsAsFromScratch),
-        cmocka_unit_test(TestGoneIsNotSeen),
-        cmocka_unit_test(TestGoneTouchesNothing),
-        cmocka_unit_test(TestCallsKeepToTheBudget),
-        cmocka_unit_test(TestDestroyingIsOnAccount),
-        cmocka_unit_test(TestUnderBudgets),
-        cmocka_unit_test(TestWaitingChangesNothing),
-        cmocka_unit_test(TestGoneIsGone),
-        cmocka_unit_test(TestAskedTwice),
-        cmocka_unit_test(TestCrumbsWhileTheLargestLeaves),
-        cmocka_unit_test(TestWaitingIsPatient),
-        cmocka_unit_test(TestTouchesGoOn),
-        cmocka_unit_test(TestFewCells),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

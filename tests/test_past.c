@@ -297,7 +297,7 @@ static void Tick(Past* past)
     Check(past);
 }
 
-static void FollowsAStorm(void** state)
+TEST(FollowsAStorm)
 {
     int64_t moved = 0, torn = 0, fromOthers = 0, new = 0;
     for (uint32_t seed = 1; seed <= 6; ++seed) {
@@ -327,7 +327,7 @@ static void FollowsAStorm(void** state)
     assert_true(moved > 1000 && torn > 50 && fromOthers > 20 && new > 1000);
 }
 
-static void CostsNothingWhereNothingChanges(void** state)
+TEST(CostsNothingWhereNothingChanges)
 {
     Past past = { .seed = 3 };
     Host_Start(&past.host);
@@ -346,7 +346,7 @@ static void CostsNothingWhereNothingChanges(void** state)
     Host_Stop(&past.host);
 }
 
-static void Refuses(void** state)
+TEST(Refuses)
 {
     Past past = { .seed = 3 };
     Host_Start(&past.host);
@@ -375,14 +375,4 @@ static void Refuses(void** state)
     OK(kiriSheet_CopySources(world, sheet, 0, 0, NULL));
     OK(kiriSheet_CopySourceWeights(world, sheet, 0, 0, NULL));
     Host_Stop(&past.host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(FollowsAStorm),
-        cmocka_unit_test(CostsNothingWhereNothingChanges),
-        cmocka_unit_test(Refuses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,7 +184,7 @@ static void CheckPieces(Host* host, kiriSheet sheet)
     }
 }
 
-static void TestListsOfConfetti(void** state)
+TEST(ListsOfConfetti)
 {
     int32_t most = 0;
     for (uint32_t run = 1; run <= 12; ++run) {
@@ -206,7 +206,7 @@ static void TestListsOfConfetti(void** state)
 }
 
 /* While a budget holds the work up, pieces are those of the model: they hang together as before. */
-static void TestListsWhileWorkWaits(void** state)
+TEST(ListsWhileWorkWaits)
 {
     uint32_t seed = 5;
     START_HOST(host);
@@ -230,7 +230,7 @@ static void TestListsWhileWorkWaits(void** state)
 }
 
 /* Nothing is sorted again when nothing has changed; the arrays stay where they are. */
-static void TestListsAreLazy(void** state)
+TEST(ListsAreLazy)
 {
     uint32_t seed = 9;
     START_HOST(host);
@@ -248,7 +248,7 @@ static void TestListsAreLazy(void** state)
     Host_Stop(&host);
 }
 
-static void TestPieceErrors(void** state)
+TEST(PieceErrors)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -278,7 +278,7 @@ static void TestPieceErrors(void** state)
 }
 
 /* The frame that the event names is in the piece, whatever the piece is numbered later. */
-static void TestEventNamesFrame(void** state)
+TEST(EventNamesFrame)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -427,7 +427,7 @@ static kiriSheet Furnish(Host* host, kiriSheetDef* def, int32_t lines, uint32_t*
     return sheet;
 }
 
-static void TestPartsAreWhatTheyWere(void** state)
+TEST(PartsAreWhatTheyWere)
 {
     static Part own, rest;
     for (uint32_t run = 1; run <= 12; ++run) {
@@ -515,7 +515,7 @@ static double RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach)
     return gap;
 }
 
-static void TestMotionGoesOn(void** state)
+TEST(MotionGoesOn)
 {
     for (uint32_t run = 1; run <= 18; ++run) {
         uint32_t seed = 401u * run;
@@ -565,7 +565,7 @@ static int32_t PieceAt(Host* host, kiriSheet sheet, double v)
 }
 
 /* A blade that stands in a piece which goes cuts nothing there, but cuts the rest when it gets there. */
-static void TestCutsStayWithTheRest(void** state)
+TEST(CutsStayWithTheRest)
 {
     for (int kept = 0; kept < 2; ++kept) {
         START_HOST(host);
@@ -597,7 +597,7 @@ static void TestCutsStayWithTheRest(void** state)
 }
 
 /* The blade stands in the rest, on a vertex that gets another number. */
-static void TestBladeOfTheRestGoesOn(void** state)
+TEST(BladeOfTheRestGoesOn)
 {
     uint64_t areas = 0;
     double most[2] = { 0.0, 0.0 };
@@ -622,7 +622,7 @@ static void TestBladeOfTheRestGoesOn(void** state)
     assert_true(most[0] == most[1] && areas % 2 == 0);
 }
 
-static void TestIdsMoveAlong(void** state)
+TEST(IdsMoveAlong)
 {
     START_HOST(host);
     kiriSheet sheet = Strips(&host, 3), detached;
@@ -658,7 +658,7 @@ static void TestIdsMoveAlong(void** state)
 }
 
 /* Contacts that wait push the part that has the point. */
-static void TestContactsMoveAlong(void** state)
+TEST(ContactsMoveAlong)
 {
     START_HOST(host);
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
@@ -676,7 +676,7 @@ static void TestContactsMoveAlong(void** state)
     Host_Stop(&host);
 }
 
-static void TestPartsAreRefused(void** state)
+TEST(PartsAreRefused)
 {
     START_HOST(host);
     kiriSheet sheet = Strips(&host, 2), detached = 1;
@@ -702,7 +702,7 @@ static void TestPartsAreRefused(void** state)
 
 /* ---- Crumbs ---- */
 
-static void TestDropCrumbs(void** state)
+TEST(DropCrumbs)
 {
     for (uint32_t run = 1; run <= 6; ++run) {
         uint32_t seed = 1009u * run;
@@ -734,7 +734,7 @@ static void TestDropCrumbs(void** state)
 }
 
 /* Strips of several areas come off: those that are crumbs keep to one frame. */
-static void TestCrumbsAreNotSampled(void** state)
+TEST(CrumbsAreNotSampled)
 {
     int32_t frames[2] = { 0, 0 }, crumbs[2] = { 0, 0 };
     for (int with = 0; with < 2; ++with) {
@@ -775,7 +775,7 @@ static void TestCrumbsAreNotSampled(void** state)
 }
 
 /* All parts of a def that are crumbs have one frame from the start. */
-static void TestCrumbsOfDef(void** state)
+TEST(CrumbsOfDef)
 {
     static const float positions[16] = { 0, 0, 0.2f, 0, 0.2f, 0.2f, 0, 0.2f, 0.5f, 0, 1.5f, 0, 1.5f, 1, 0.5f, 1 };
     static const int32_t indices[12] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
@@ -794,18 +794,4 @@ static void TestCrumbsOfDef(void** state)
         assert_true(with ? StateOf(&host, sheet, small).frames == 1 : StateOf(&host, sheet, small).frames > 1);
     }
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestListsOfConfetti),     cmocka_unit_test(TestListsWhileWorkWaits),
-        cmocka_unit_test(TestListsAreLazy),        cmocka_unit_test(TestPieceErrors),
-        cmocka_unit_test(TestEventNamesFrame),     cmocka_unit_test(TestPartsAreWhatTheyWere),
-        cmocka_unit_test(TestMotionGoesOn),
-        cmocka_unit_test(TestCutsStayWithTheRest), cmocka_unit_test(TestBladeOfTheRestGoesOn),
-        cmocka_unit_test(TestIdsMoveAlong),        cmocka_unit_test(TestContactsMoveAlong),
-        cmocka_unit_test(TestPartsAreRefused),        cmocka_unit_test(TestDropCrumbs),          cmocka_unit_test(TestCrumbsAreNotSampled),
-        cmocka_unit_test(TestCrumbsOfDef),    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

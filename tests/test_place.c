@@ -42,7 +42,7 @@ static void AssertSite(const kiriSites* sites, int32_t index, double u, double v
 }
 
 /* A slit from the outline has one end, one inside the sheet two; their sites mirror each other. */
-static void BothSidesOfEachEnd(void** state)
+TEST(BothSidesOfEachEnd)
 {
     Scene scene;
     kiriSites sites = { 0 };
@@ -64,7 +64,7 @@ static void BothSidesOfEachEnd(void** state)
 }
 
 /* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
-static void AsCloseAsThereIsRoom(void** state)
+TEST(AsCloseAsThereIsRoom)
 {
     Scene scene;
     kiriSites sites = { 0 };
@@ -87,7 +87,7 @@ static void AsCloseAsThereIsRoom(void** state)
 }
 
 /* Corners of cuts, crossings, ends on the outline and on another cut are no slit ends. */
-static void OnlyEnds(void** state)
+TEST(OnlyEnds)
 {
     Scene scene;
     kiriSites sites = { 0 };
@@ -105,7 +105,7 @@ static void OnlyEnds(void** state)
 
 /* The border between a pair goes from the slit's end to the outline, wherever in their squares slit and end lie: on a
    grid line, or across the middle. */
-static void BordersBeginAtSlitEnds(void** state)
+TEST(BordersBeginAtSlitEnds)
 {
     for (int32_t resolution = 30; resolution < 70; ++resolution) {
         for (int k = 0; k < 6; ++k) {
@@ -135,7 +135,7 @@ static const float aroundEnd[8][2] = { { 1.0f, 0.0f },  { -1.0f, 0.0f }, { 0.5f,
 
 /* A region beside a slit has no border with one on the other side, be it ever so near. The slit is on a grid line: so
    slivers of cells lie along it. */
-static void BordersStayBesideSlits(void** state)
+TEST(BordersStayBesideSlits)
 {
     const float slit[4] = { 0.5f, 1.1f, 0.5f, 0.3f };
     for (int32_t resolution = 20; resolution <= 80; resolution += 10) {
@@ -165,7 +165,7 @@ static void BordersStayBesideSlits(void** state)
 }
 
 /* An end gets a pair also where that is two squares apart, as close as pairs are, and where sites shall be closer. */
-static void PairsTwoSquaresApart(void** state)
+TEST(PairsTwoSquaresApart)
 {
     for (int32_t resolution = 20; resolution < 60; ++resolution) {
         for (int k = 1; k <= 2; ++k) {
@@ -194,7 +194,7 @@ static void AssertRefused(Host* host, kiriSheetDef* def, const char* part)
     assert_non_null(strstr(kiriWorld_GetLastError(host->world), part));
 }
 
-static void CloseFramePointsAreRefused(void** state)
+TEST(CloseFramePointsAreRefused)
 {
     for (int32_t k = 1; k < 20; ++k) {
         float points[4] = { 0.51f, 0.26f, 0.51f + 0.01f * (float)k, 0.26f };
@@ -212,7 +212,7 @@ static void CloseFramePointsAreRefused(void** state)
     }
 }
 
-static void ManyFramesAreRefused(void** state)
+TEST(ManyFramesAreRefused)
 {
     START_HOST(host);
     kiriSheetDef def = DefaultSheet();
@@ -227,7 +227,7 @@ static void ManyFramesAreRefused(void** state)
 }
 
 /* Re-sampling stops there, after cuts too. */
-static void ResamplingStops(void** state)
+TEST(ResamplingStops)
 {
     static const float across[4] = { 0.31f, -0.1f, 0.31f, 0.6f }, along[4] = { 0.5f, 0.26f, 1.1f, 0.26f };
     START_HOST(host);
@@ -288,7 +288,7 @@ static Rectangle MakeShape(kiriSheetDef* def, uint32_t* seed)
 
 /* A new sheet has no more frames than the host asked for, or than it has pieces: whatever its shape and its grid, and
    however rigid frames are. After cuts there may be more. */
-static void NoMoreThanTheHostGave(void** state)
+TEST(NoMoreThanTheHostGave)
 {
     uint32_t seed = 5;
     int32_t made = 0, parts = 0, more = 0;
@@ -319,7 +319,7 @@ static void NoMoreThanTheHostGave(void** state)
 }
 
 /* A cut brings frames where it makes some more rigid, and not those that a new sheet might have done with, too. */
-static void FramesWhereCutIs(void** state)
+TEST(FramesWhereCutIs)
 {
     START_HOST(host);
     kiriSheetDef def = DefaultSheet();
@@ -330,22 +330,4 @@ static void FramesWhereCutIs(void** state)
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).frames, 100);
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(BothSidesOfEachEnd),
-        cmocka_unit_test(AsCloseAsThereIsRoom),
-        cmocka_unit_test(OnlyEnds),
-        cmocka_unit_test(BordersBeginAtSlitEnds),
-        cmocka_unit_test(CloseFramePointsAreRefused),
-        cmocka_unit_test(ManyFramesAreRefused),
-        cmocka_unit_test(ResamplingStops),
-        cmocka_unit_test(NoMoreThanTheHostGave),
-        cmocka_unit_test(FramesWhereCutIs),
-        cmocka_unit_test(BordersStayBesideSlits),
-        cmocka_unit_test(PairsTwoSquaresApart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

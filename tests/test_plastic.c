@@ -145,7 +145,7 @@ static void CheckSpringback(int32_t frames, double radius, double hardening, int
     Host_Stop(&s.host);
 }
 
-static void TestSpringback(void** unused)
+TEST(Springback)
 {
     const int32_t frames[3] = { 5, 9, 17 };
     const double tolerance[3] = { 5e-3, 1e-3, 5e-4 };
@@ -160,7 +160,7 @@ static void TestSpringback(void** unused)
 }
 
 /* Frames anywhere: how far the strip springs back, and a cut along it, hardly depend on them. */
-static void TestAnyFrames(void** unused)
+TEST(AnyFrames)
 {
     double theory = Residual(100.0, 0.0);
     for (uint32_t seed = 1; seed <= 8; ++seed) {
@@ -191,7 +191,7 @@ static void TestAnyFrames(void** unused)
 
 /* Bends a strip to and fro. Its elastic energy is the energy of the elastic curvature, and the rest of the work is what flow
    takes: by the law, whose reach grows with all that has flowed. */
-static void TestEnergy(void** unused)
+TEST(Energy)
 {
     const double goals[4] = { 100.0, 0.0, -60.0, 0.0 };
     double stiffness = Young * pow(Thickness, 3.0) / 12.0 * Width * Length, most = YieldCurvature();
@@ -224,7 +224,7 @@ static void TestEnergy(void** unused)
 }
 
 /* A material that never reaches its yield stress moves as an elastic one, bit for bit: through a cut, too. */
-static void TestStrongIsElastic(void** unused)
+TEST(StrongIsElastic)
 {
     Strip s[2];
     for (int k = 0; k < 2; ++k) {
@@ -249,7 +249,7 @@ static void TestStrongIsElastic(void** unused)
 
 /* A strip that was bent for good is cut along its length, where one half has no frames; then the half leaves; then the world is
    loaded. All keep the curvature. */
-static void TestPiecesKeepTheirShape(void** unused)
+TEST(PiecesKeepTheirShape)
 {
     Strip s;
     Strip_Start(&s, 9, Yield, 0.0, 0);
@@ -298,7 +298,7 @@ static void TestPiecesKeepTheirShape(void** unused)
 }
 
 /* The material may begin to yield, and become elastic again: the bend stays. */
-static void TestMaterialChanges(void** unused)
+TEST(MaterialChanges)
 {
     Strip s;
     Strip_Start(&s, 9, 0.0, 0.0, 0);
@@ -365,7 +365,7 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
 }
 
 /* A sheet yields at the same curvature in whichever direction it is rolled. */
-static void TestAnyDirection(void** unused)
+TEST(AnyDirection)
 {
     const double curvature = 60.0, ratio = curvature / YieldCurvature();
     for (int k = 0; k < 3; ++k) {
@@ -375,15 +375,4 @@ static void TestAnyDirection(void** unused)
         print_message("rolled at %.2f rad to the rows: moment %.3f, theory %.3f\n", asin(a), moment, theory);
         assert_true(fabs(moment / theory - 1.0) < 0.05);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSpringback),           cmocka_unit_test(TestEnergy),
-        cmocka_unit_test(TestStrongIsElastic),      cmocka_unit_test(TestPiecesKeepTheirShape),
-        cmocka_unit_test(TestMaterialChanges),      cmocka_unit_test(TestAnyDirection),
-        cmocka_unit_test(TestAnyFrames),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

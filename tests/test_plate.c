@@ -189,7 +189,7 @@ static void CheckTile(int layout, double nu, double thickness)
     }
 }
 
-static void EvenStatesAreExact(void** state)
+TEST(EvenStatesAreExact)
 {
     for (int layout = 0; layout < LAYOUTS; ++layout) {
         for (int n = 0; n < RATIOS * THIN; ++n) {
@@ -376,7 +376,7 @@ static void CheckStrip(int layout, int columns, int rows, int model, double nu, 
     Voronoi_Drop(&sheet);
 }
 
-static void FreeEdgesAreFree(void** state)
+TEST(FreeEdgesAreFree)
 {
     static const struct {
         Layout layout;
@@ -405,7 +405,7 @@ static double ExactCurl(double theta)
 }
 
 /* Energies of one link of a strip between small angles, D (1 - nu^2), and large ones, D. */
-static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
+TEST(StripsStiffenAsTheirCurlIsHeldBack)
 {
     for (int r = 1; r < RATIOS; ++r) {
         double nu = (double)(float)ratios[r], h = (double)(float)0.01, W = 2.0, l = 0.5;
@@ -436,7 +436,7 @@ static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
 
 /* A link of a strip one region wide that bends and twists, by itself: the energy of a ribbon (kiri_strain.h), but for the
    mean stretch, which is given. */
-static void RibbonsBendAndTwist(void** state)
+TEST(RibbonsBendAndTwist)
 {
     const double W = 0.5, l = 0.05;
     for (int n = 0; n < 6 * RATIOS; ++n) {
@@ -549,7 +549,7 @@ static void CheckElement(const Voronoi* v, int32_t k, kiriPose* poses, uint32_t*
 }
 
 /* Of links with open ends and of corners, also in folds, where bending and twist fade, and in strips that curl. */
-static void DerivativesAreExact(void** state)
+TEST(DerivativesAreExact)
 {
     uint32_t seed = 29;
     static kiriPose poses[VORONOI_SITES];
@@ -560,16 +560,4 @@ static void DerivativesAreExact(void** state)
             CheckElement(&sheet, k, poses, &seed);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(EvenStatesAreExact),
-        cmocka_unit_test(FreeEdgesAreFree),
-        cmocka_unit_test(StripsStiffenAsTheirCurlIsHeldBack),
-        cmocka_unit_test(RibbonsBendAndTwist),
-        cmocka_unit_test(DerivativesAreExact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,7 +72,7 @@ static double OffTarget(const Host* host, int32_t pin)
 }
 
 /* Four corners are pinned while work waits at a stage, and hold when it is done. */
-static void TestWhileWorkWaits(void** state)
+TEST(WhileWorkWaits)
 {
     for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
         static const kiriBudget tight = { KIRI_LEAST_TRIANGLES, 40, 8, 0 }, none = { 0, 0, 0, 0 };
@@ -125,7 +125,7 @@ static void GiveDisc(Host* host, kiriSheet sheet, float u, float v, float radius
 
 /* The loop that every host writes: the piece of each event gets a sheet, and no call makes the frame of another event
    name something else. */
-static void TestLoopOverEvents(void** state)
+TEST(LoopOverEvents)
 {
     for (int order = 0; order < 6; ++order) {
         static const int orders[6][3] = {
@@ -234,7 +234,7 @@ static void GoOnAlike(Host* a, Host* b)
 }
 
 /* Two worlds that got other budgets until some tick, and the same from there on. */
-static void TestHashTellsProgress(void** state)
+TEST(HashTellsProgress)
 {
     int32_t alike[KIRI_READY] = { 0 }, apart[KIRI_READY] = { 0 };
     for (uint32_t run = 1; run <= 300; ++run) {
@@ -301,7 +301,7 @@ static kiriSheetDef TinyDef(void)
 }
 
 /* Sheets, cuts and frames that come and go, and many more pins: more than a slot has generations. */
-static void TestIdsComeOnce(void** state)
+TEST(IdsComeOnce)
 {
     enum { SHEETS = 600, PINS = 20000 };
     static uint32_t ids[3 * SHEETS + PINS];
@@ -394,7 +394,7 @@ static kiriPool* PoolOf(kiriWorld* world, int way)
 }
 
 /* No id left of a kind: the call says so, and nothing has changed; when there are ids again, it goes through. */
-static void TestIdsRunOut(void** state)
+TEST(IdsRunOut)
 {
     for (int way = 0; way < WAYS; ++way) {
         Office office;
@@ -425,13 +425,4 @@ static void TestIdsRunOut(void** state)
         Rectangle_Free(&mesh);
         Host_Stop(host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestWhileWorkWaits),    cmocka_unit_test(TestLoopOverEvents),
-        cmocka_unit_test(TestHashTellsProgress),        cmocka_unit_test(TestIdsComeOnce),       cmocka_unit_test(TestIdsRunOut),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

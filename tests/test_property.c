@@ -94,15 +94,9 @@ static uint64_t Run(uint32_t seed, bool check)
     return hash;
 }
 
-static void RandomCuts(void** state)
+TEST(RandomCuts)
 {
     uint64_t hash = Run(2463534242u, true);
     assert_true(hash == Run(2463534242u, false));
     assert_true(hash != Run(88172645u, true));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(RandomCuts) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,16 +6,16 @@ static const Setting referenceSetting = { SWEEP_STRIP, 33, 1, 80, 2, 64, 1, KIRI
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
-static int count;
+static int settingCount;
 
-static int RunSweep(void** state)
+SETUP
 {
-    count = Sweep_Settings(SWEEP_STRIP, settings, true);
+    settingCount = Sweep_Settings(SWEEP_STRIP, settings, true);
     bool ok = Sweep_Prepare(&referenceSetting);
-    for (int i = 0; i < count && ok; ++i) {
+    for (int i = 0; i < settingCount && ok; ++i) {
         ok = Sweep_Run(&settings[i], NULL, &outcomes[i]);
     }
-    return ok ? 0 : -1;
+    assert_true(ok);
 }
 
 static Outcome RunPreset(int32_t preset, Setting* setting)
@@ -28,7 +28,7 @@ static Outcome RunPreset(int32_t preset, Setting* setting)
     return outcome;
 }
 
-static void TestReferenceIsConverged(void** state)
+TEST(ReferenceIsConverged)
 {
     Setting half = referenceSetting;
     Outcome outcome;
@@ -37,12 +37,12 @@ static void TestReferenceIsConverged(void** state)
     assert_true(outcome.error > 0.0 && outcome.error < 0.001);
 }
 
-static void TestNoPresetIsDominated(void** state)
+TEST(NoPresetIsDominated)
 {
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         Setting setting;
         Outcome outcome = RunPreset(p, &setting);
-        int better = Sweep_Dominating(settings, outcomes, count, &setting, &outcome);
+        int better = Sweep_Dominating(settings, outcomes, settingCount, &setting, &outcome);
         if (better >= 0) {
             const Setting* s = &settings[better];
             fail_msg("preset %d: error %g at %g; %d frames, grid %d, %d iterations, %d substeps: %g at %g", p,
@@ -53,13 +53,13 @@ static void TestNoPresetIsDominated(void** state)
 }
 
 /* And most settings are: the test above can fail. */
-static void TestMostAreDominated(void** state)
+TEST(MostAreDominated)
 {
     int dominated = 0;
-    for (int i = 0; i < count; ++i) {
-        dominated += Sweep_Dominating(settings, outcomes, count, &settings[i], &outcomes[i]) >= 0 ? 1 : 0;
+    for (int i = 0; i < settingCount; ++i) {
+        dominated += Sweep_Dominating(settings, outcomes, settingCount, &settings[i], &outcomes[i]) >= 0 ? 1 : 0;
     }
-    assert_true(2 * dominated > count);
+    assert_true(2 * dominated > settingCount);
 }
 
 /* What kiri.h says of them: at most so much, on other grids and with frames moved too; and no idle boast. */
@@ -72,7 +72,7 @@ static void CheckErrors(int32_t preset, const double error[2])
     }
 }
 
-static void TestErrorsAreAsDocumented(void** state)
+TEST(ErrorsAreAsDocumented)
 {
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         kiriQuality quality;
@@ -85,7 +85,7 @@ static void TestErrorsAreAsDocumented(void** state)
 }
 
 /* The most accurate one is as fine as the reference here, and left to `make accuracy`. */
-static void TestErrorsInTwoDimensions(void** state)
+TEST(ErrorsInTwoDimensions)
 {
     static const Setting fine = { SWEEP_SQUARE, 9, 9, 60, 1, 16, 1, KIRI_MODEL_LINKS, 0 };
     assert_true(Sweep_Prepare(&fine));
@@ -100,7 +100,7 @@ static void TestErrorsInTwoDimensions(void** state)
     }
 }
 
-static void TestErrorFallsAndCostGrows(void** state)
+TEST(ErrorFallsAndCostGrows)
 {
     Setting setting;
     Outcome before = RunPreset(0, &setting);
@@ -109,14 +109,4 @@ static void TestErrorFallsAndCostGrows(void** state)
         assert_true(outcome.error < 0.5 * before.error && outcome.cost > before.cost);
         before = outcome;
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestReferenceIsConverged),  cmocka_unit_test(TestNoPresetIsDominated),
-        cmocka_unit_test(TestMostAreDominated),      cmocka_unit_test(TestErrorsAreAsDocumented),
-        cmocka_unit_test(TestErrorsInTwoDimensions), cmocka_unit_test(TestErrorFallsAndCostGrows),
-    };
-    return cmocka_run_group_tests(tests, RunSweep, NULL);
 }

@@ -320,7 +320,7 @@ static void TryField(int32_t part, int32_t index, bool isStrip)
     }
 }
 
-static void TestOneByOne(void** state)
+TEST(OneByOne)
 {
     Play play;
     Part parts[PARTS];
@@ -366,7 +366,7 @@ static void Restrain(Play* play)
     }
 }
 
-static void TestAtRandom(void** state)
+TEST(AtRandom)
 {
     int32_t accepted = 0, runs = IS_SLOW ? 60 : 250;
     for (int32_t run = 1; run <= runs; ++run) {
@@ -393,7 +393,7 @@ static void TestAtRandom(void** state)
 }
 
 /* More frames are wanted than the grid carries: at once, which is refused, or by re-sampling, which stops. */
-static void TestMoreFramesThanCells(void** state)
+TEST(MoreFramesThanCells)
 {
     static const struct {
         int32_t grid, frames, most;
@@ -423,7 +423,7 @@ static void TestMoreFramesThanCells(void** state)
 }
 
 /* In a tick: a strip is cut off and destroyed, then a single cell is cut out. */
-static void TestSingleCellCutOut(void** state)
+TEST(SingleCellCutOut)
 {
     static const float strip[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
     static const float cell[10] = { 0.626f, 0.626f, 0.749f, 0.626f, 0.749f, 0.749f, 0.626f, 0.749f, 0.626f, 0.626f };
@@ -449,7 +449,7 @@ static void TestSingleCellCutOut(void** state)
 }
 
 /* The finest grid, the most frames and points, each on a sheet that they do not make large. */
-static void TestTheMost(void** state)
+TEST(TheMost)
 {
     for (int what = 0; what < (IS_SLOW ? 1 : 4); ++what) {
         Play play;
@@ -468,15 +468,7 @@ static void TestTheMost(void** state)
     }
 }
 
-int main(void)
+SETUP
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestOneByOne),
-        cmocka_unit_test(TestAtRandom),
-        cmocka_unit_test(TestMoreFramesThanCells),
-        cmocka_unit_test(TestSingleCellCutOut),
-        cmocka_unit_test(TestTheMost),
-    };
     signal(SIGPROF, OnAlarm);
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -206,7 +206,7 @@ static void CheckReader(Scene* scene, const Reader* reader, bool isWaiting)
     assert_int_equal(host->live, live);
 }
 
-static void TestNothingChanges(void** state)
+TEST(NothingChanges)
 {
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
         Scene scene;
@@ -220,7 +220,7 @@ static void TestNothingChanges(void** state)
 }
 
 /* Weights take memory; refused, they say so, and nothing is left behind. */
-static void TestWeightsWithoutMemory(void** state)
+TEST(WeightsWithoutMemory)
 {
     Scene scene;
     Bytes before, after;
@@ -267,7 +267,7 @@ static void* ReadAll(void* argument)
     return NULL;
 }
 
-static void TestTwoThreads(void** state)
+TEST(TwoThreads)
 {
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
         Scene scene;
@@ -288,11 +288,4 @@ static void TestTwoThreads(void** state)
         assert_true(memcmp(&before, &after, sizeof(before)) == 0);
         Scene_Stop(&scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestNothingChanges),
-                                        cmocka_unit_test(TestWeightsWithoutMemory), cmocka_unit_test(TestTwoThreads) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

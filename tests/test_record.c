@@ -57,7 +57,7 @@ static void RecordStorm(Tape* tape, const StormType* type, uint64_t hashes[STORM
     Host_Destroy(&tape->host);
 }
 
-static void TestStorm(void** state)
+TEST(Storm)
 {
     for (size_t i = 0; i < sizeof storms / sizeof storms[0]; i++) {
         Tape tape, again;
@@ -340,7 +340,7 @@ static void RecordAll(Tape* tape, kiriRecordFn* write)
     Tape_Stop(tape);
 }
 
-static void TestAll(void** state)
+TEST(All)
 {
     Tape tape;
     RecordAll(&tape, Tape_Write);
@@ -367,7 +367,7 @@ static void WriteAndCount(void* user, const void* bytes, int32_t count)
     }
 }
 
-static void TestAllCallsAreRecorded(void** state)
+TEST(AllCallsAreRecorded)
 {
     Tape tape;
     RecordAll(&tape, WriteAndCount);
@@ -403,7 +403,7 @@ static bool IsLook(const char* name)
     return false;
 }
 
-static void TestHeaderAndTableAgree(void** state)
+TEST(HeaderAndTableAgree)
 {
     FILE* header = fopen("include/kiri/kiri.h", "r");
     assert_non_null(header);
@@ -453,7 +453,7 @@ static void CheckStruct(const char* name, const kiriStruct* of)
     }
 }
 
-static void TestAllFieldsAreRecorded(void** state)
+TEST(AllFieldsAreRecorded)
 {
     int32_t found = 0;
     for (int32_t kind = 0; kind < KIRI_ARGUMENT_KINDS; kind++) {
@@ -480,7 +480,7 @@ static const void* Freeze(const void* bytes, size_t size)
 }
 
 /* What a host gives is not even written with what is in it. */
-static void TestReadOnlyArguments(void** state)
+TEST(ReadOnlyArguments)
 {
     const kiriBudget budget = { 1000, 100000, 100000, 1000 };
     const kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
@@ -509,7 +509,7 @@ static void TestReadOnlyArguments(void** state)
 
 /* ---- What it costs ----------------------------------------------------------------------------------------------- */
 
-static void TestSize(void** state)
+TEST(Size)
 {
     Tape tape;
     float stroke[200];
@@ -530,7 +530,7 @@ static void TestSize(void** state)
 }
 
 /* A world that records allocates as one that does not. */
-static void TestNoMemory(void** state)
+TEST(NoMemory)
 {
     int64_t calls[2];
     for (int records = 0; records < 2; records++) {
@@ -546,19 +546,4 @@ static void TestNoMemory(void** state)
         Tape_Free(&tape);
     }
     assert_int_equal(calls[0], calls[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestStorm),
-        cmocka_unit_test(TestAll),
-        cmocka_unit_test(TestAllCallsAreRecorded),
-        cmocka_unit_test(TestHeaderAndTableAgree),
-        cmocka_unit_test(TestAllFieldsAreRecorded),
-        cmocka_unit_test(TestReadOnlyArguments),
-        cmocka_unit_test(TestSize),
-        cmocka_unit_test(TestNoMemory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

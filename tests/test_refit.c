@@ -148,7 +148,7 @@ static void CheckTurned(Probe* probe)
     }
 }
 
-static void TestMomentumIsKept(void** state)
+TEST(MomentumIsKept)
 {
     double momentum = 0.0, energy = -1.0;
     int32_t commits = 0;
@@ -192,7 +192,7 @@ static void CheckRigid(Probe* probe)
     }
 }
 
-static void TestRigidMotionGoesOn(void** state)
+TEST(RigidMotionGoesOn)
 {
     for (int32_t model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_POINTS; ++model) {
         Probe probe;
@@ -219,7 +219,7 @@ static void TestRigidMotionGoesOn(void** state)
 }
 
 /* Far from the cut nothing happens, to the last bit. */
-static void TestFarFramesKeepTheirState(void** state)
+TEST(FarFramesKeepTheirState)
 {
     static const float way[6] = { -0.1f, 0.1f, 0.1f, 0.13f, 0.15f, -0.1f };
     Probe probe;
@@ -312,7 +312,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
     assert_true(probe->commits > 20);
 }
 
-static void TestNothingSeenJumps(void** state)
+TEST(NothingSeenJumps)
 {
     Seen* seen = malloc(sizeof(Seen));
     kiriSheetDef def = DefaultSheet();
@@ -365,7 +365,7 @@ static double LongestFade(const kiriFades* fades)
     return longest;
 }
 
-static void TestFadesEnd(void** state)
+TEST(FadesEnd)
 {
     Host host;
     kiriSheet sheet;
@@ -387,7 +387,7 @@ static void TestFadesEnd(void** state)
 }
 
 /* A sheet that lies still is not written again, until it moves or is put elsewhere, by however much. */
-static void TestStillSheetsAreNotWritten(void** state)
+TEST(StillSheetsAreNotWritten)
 {
     static const float weightless[3] = { 0.0f, 0.0f, 0.0f }, push[3] = { 0.0f, 0.0f, 1.0f },
                        spin[3] = { 0.0f, 0.0f, 0.0f };
@@ -415,7 +415,7 @@ static void TestStillSheetsAreNotWritten(void** state)
     Host_Stop(&host);
 }
 
-static void TestNoSleepBeforeTheEnd(void** state)
+TEST(NoSleepBeforeTheEnd)
 {
     Host host;
     kiriSheet sheet;
@@ -433,7 +433,7 @@ static void TestNoSleepBeforeTheEnd(void** state)
     Host_Stop(&host);
 }
 
-static void TestDefsThatAreNone(void** state)
+TEST(DefsThatAreNone)
 {
     const struct {
         float fadeTime;
@@ -472,7 +472,7 @@ static kiriSheet BentPaper(Host* host, float poissonsRatio)
 }
 
 /* Links go on with their strains, and corners see these: what a commit adds is little, and nothing is thrown. */
-static void TestBentPaperGainsNoEnergy(void** state)
+TEST(BentPaperGainsNoEnergy)
 {
     static const float ratios[2] = { 0.3f, 0.45f };
     uint32_t seed = 77;
@@ -495,20 +495,4 @@ static void TestBentPaperGainsNoEnergy(void** state)
         }
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMomentumIsKept),
-        cmocka_unit_test(TestRigidMotionGoesOn),
-        cmocka_unit_test(TestFarFramesKeepTheirState),
-        cmocka_unit_test(TestNothingSeenJumps),
-        cmocka_unit_test(TestFadesEnd),
-        cmocka_unit_test(TestStillSheetsAreNotWritten),
-        cmocka_unit_test(TestNoSleepBeforeTheEnd),
-        cmocka_unit_test(TestDefsThatAreNone),
-        cmocka_unit_test(TestBentPaperGainsNoEnergy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

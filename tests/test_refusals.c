@@ -362,7 +362,7 @@ static int32_t CheckCall(const Call* call, int32_t work, bool once)
 }
 
 /* Calls that change a world, but for ticks. */
-static void TestCallsRefused(void** state)
+TEST(CallsRefused)
 {
     int32_t all = 0;
     for (int32_t work = 0; work < STATES; ++work) {
@@ -407,7 +407,7 @@ static int32_t CheckTick(int32_t work, bool isLifted, bool once, const Outcome* 
     }
 }
 
-static void TestTicksRefused(void** state)
+TEST(TicksRefused)
 {
     for (int32_t work = 0; work < STATES; ++work) {
         Outcome rich = OutcomeOf(&calls[0], work);
@@ -421,7 +421,7 @@ static void TestTicksRefused(void** state)
 }
 
 /* Refused at random, again and again, under random budgets. */
-static void TestRefusedAtRandom(void** state)
+TEST(RefusedAtRandom)
 {
     uint64_t layout = OutcomeOf(&calls[0], NO_WORK).layout;
     int32_t refused[KIRI_STAGE_COUNT + 1] = { 0 };
@@ -486,7 +486,7 @@ static bool GoOnFromSnapshot(int32_t work, int64_t n)
     return isRefused;
 }
 
-static void TestSnapshotAfterRefusal(void** state)
+TEST(SnapshotAfterRefusal)
 {
     for (int32_t work = 0; work < STATES; ++work) {
         int64_t n = 0;
@@ -498,7 +498,7 @@ static void TestSnapshotAfterRefusal(void** state)
 }
 
 /* The journal of the mesh is closed then: pieces may leave the sheet. */
-static void TestDetachAfterRefusal(void** state)
+TEST(DetachAfterRefusal)
 {
     kiriResult result = KIRI_ERROR_MEMORY;
     int32_t refused = 0;
@@ -515,14 +515,4 @@ static void TestDetachAfterRefusal(void** state)
         Stand_Stop(&s);
     }
     assert_true(refused > 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestCallsRefused),        cmocka_unit_test(TestTicksRefused),
-        cmocka_unit_test(TestRefusedAtRandom), cmocka_unit_test(TestSnapshotAfterRefusal),
-        cmocka_unit_test(TestDetachAfterRefusal),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static void RecordSmall(Tape* tape)
     Tape_Stop(tape);
 }
 
-static void TestNotes(void** state)
+TEST(Notes)
 {
     Tape tape, again;
     RecordSmall(&tape);
@@ -49,7 +49,7 @@ static void TestNotes(void** state)
     Tape_Free(&tape);
 }
 
-static void TestMisuse(void** state)
+TEST(Misuse)
 {
     Tape tape, again;
     kiriReplay replay = { 0 };
@@ -91,7 +91,7 @@ static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tap
     return result;
 }
 
-static void TestAnotherGravity(void** state)
+TEST(AnotherGravity)
 {
     Tape tape, again;
     RecordSmall(&tape);
@@ -105,7 +105,7 @@ static void TestAnotherGravity(void** state)
     Tape_Free(&tape);
 }
 
-static void TestOtherVersions(void** state)
+TEST(OtherVersions)
 {
     Tape tape, again;
     RecordSmall(&tape);
@@ -116,7 +116,7 @@ static void TestOtherVersions(void** state)
     Tape_Free(&tape);
 }
 
-static void TestAnotherResult(void** state)
+TEST(AnotherResult)
 {
     Tape tape, again;
     Tape_Start(&tape);
@@ -143,7 +143,7 @@ static void TestAnotherResult(void** state)
 /* ---- Damage ------------------------------------------------------------------------------------------------------ */
 
 /* The end of one call is a good end; within a call it is none. */
-static void TestCutShort(void** state)
+TEST(CutShort)
 {
     Tape tape;
     int32_t whole = 0, within = 0;
@@ -167,7 +167,7 @@ static void TestCutShort(void** state)
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Each allocation of a replay is refused once. Then it says so; another world plays it to the end. */
-static void TestRefusedReplay(void** state)
+TEST(RefusedReplay)
 {
     Tape tape;
     bool isDone = false;
@@ -193,7 +193,7 @@ static void TestRefusedReplay(void** state)
 }
 
 /* What was refused memory when it was recorded is left out. */
-static void TestRecordedRefusals(void** state)
+TEST(RecordedRefusals)
 {
     static const float way[4] = { 0.3f, -0.1f, 0.5f, 1.5f };
     for (int64_t failAt = 1; failAt < 400; failAt += 7) {
@@ -250,7 +250,7 @@ static Bytes SaveOf(const Tape* tape)
 }
 
 /* A cut that is finished at once, a save and a load. */
-static void TestLoad(void** state)
+TEST(Load)
 {
     const kiriBudget one = { 0, 1, 0, 0 };
     Tape tape;
@@ -267,20 +267,4 @@ static void TestLoad(void** state)
     Slash(&tape, sheet);
     Tape_Stop(&tape);
     Tape_PlayAll(&tape);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestNotes),
-        cmocka_unit_test(TestMisuse),
-        cmocka_unit_test(TestAnotherGravity),
-        cmocka_unit_test(TestOtherVersions),
-        cmocka_unit_test(TestAnotherResult),
-        cmocka_unit_test(TestCutShort),
-        cmocka_unit_test(TestRefusedReplay),
-        cmocka_unit_test(TestRecordedRefusals),
-        cmocka_unit_test(TestLoad),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

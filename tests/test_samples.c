@@ -1,16 +1,12 @@
 /* The scenes of the samples are what the paper's table 1 says, and what they say of themselves. */
 #include "../samples/scene.h"
 #include "validate.h"
+#include "support.h"
 
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 /* A tick of a scene. Its world is validated after every seventh, to save time. */
 static kiriResult TickScene(Scene* scene)
@@ -65,7 +61,7 @@ static void Start(Scene* scene, const char* name)
     StartAt(scene, name, 0.0f);
 }
 
-static void TestTable(void** state)
+TEST(Table)
 {
     for (int i = 0; i < ROWS; i++) {
         Scene scene;
@@ -82,7 +78,7 @@ static void TestTable(void** state)
 }
 
 /* The scenes' own frames: more, so that what is seen is not strained, in the same pieces. */
-static void TestOwnFrames(void** state)
+TEST(OwnFrames)
 {
     static const int rows[] = { SPIRAL, KIRIGAMI, VORTEX, FALLING_GUY };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -116,7 +112,7 @@ static void CheckTimes(const Scene* scene)
 }
 
 /* And so at any pace, in as many more ticks. */
-static void TestTimes(void** state)
+TEST(Times)
 {
     static const float paces[] = { 1.0f, 0.25f, 2.0f };
     for (int i = 0; Scene_GetType(i) != NULL; i++) {
@@ -148,7 +144,7 @@ static uint64_t HashAt(float pace)
     return hash;
 }
 
-static void TestPaceOfOne(void** state)
+TEST(PaceOfOne)
 {
     assert_true(HashAt(0.0f) == HashAt(1.0f));
     assert_true(HashAt(0.0f) != HashAt(0.5f));
@@ -189,7 +185,7 @@ static float LongestSide(const Outline* way)
 }
 
 /* At a slow pace the blade goes on a little in every tick, on its way, and all points of the way are cut. */
-static void TestSlowBlade(void** state)
+TEST(SlowBlade)
 {
     Scene scene;
     StartAt(&scene, "bunny", 0.2f);
@@ -280,7 +276,7 @@ static void RunWhole(const Row* row, Scene* scene, Watch* watch)
     assert_true(counts.vertices > row->vertices + 2 * corners); /* two lips, and where mesh edges cross */
 }
 
-static void TestSpiralScene(void** state)
+TEST(SpiralScene)
 {
     Scene scene;
     RunWhole(&table[SPIRAL], &scene, NULL);
@@ -306,7 +302,7 @@ static float HeightOf(const Scene* scene, const Stroke* stroke)
     return height;
 }
 
-static void TestPatchworkScene(void** state)
+TEST(PatchworkScene)
 {
     Scene scene;
     RunWhole(&table[PATCHWORK], &scene, NULL);
@@ -352,7 +348,7 @@ static double HeightOfMiddle(const Scene* scene)
 
 /* Why the scene has affine frames: under the pull they stretch. The sheet gets narrower with both; rigid ones only move
    apart and together. */
-static void TestRubberStretches(void** state)
+TEST(RubberStretches)
 {
     for (int plain = 0; plain < 2; plain++) {
         Scene scene;
@@ -371,7 +367,7 @@ static void TestRubberStretches(void** state)
 
 /* Cuts let go of nearly all elastic energy, and bring none but what new borders see between affine frames, which have
    no offsets of strains: 5e-5 of all. */
-static void TestRubberScene(void** state)
+TEST(RubberScene)
 {
     Scene scene;
     double elastic;
@@ -385,7 +381,7 @@ static void TestRubberScene(void** state)
 }
 
 /* Nothing leaves the plane or brings energy; in the end the halves of the disc lie on the floor, apart. */
-static void TestFlatScene(void** state)
+TEST(FlatScene)
 {
     Scene scene;
     Watch watch = { .still = 1 };
@@ -408,7 +404,7 @@ static void TestFlatScene(void** state)
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
    though each commit changes the borders of bent regions. */
 /* Folds reach their angles, and cuts through them part the sheet. */
-static void TestFoldScenes(void** state)
+TEST(FoldScenes)
 {
     static const char* const names[] = { "miura", "card" };
     static const float angles[2][3] = { { -0.3f, 0.3f, -0.3f }, { 1.57f, 1.57f, -1.57f } }; /* rad */
@@ -432,7 +428,7 @@ static void TestFoldScenes(void** state)
     }
 }
 
-static void TestSpiralIsNotThrown(void** state)
+TEST(SpiralIsNotThrown)
 {
     Scene scene;
     Start(&scene, "spiral");
@@ -449,7 +445,7 @@ static void TestSpiralIsNotThrown(void** state)
 }
 
 /* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
-static void TestSpiral(void** state)
+TEST(Spiral)
 {
     const Spiral spiral = { { 0.3, -0.2 }, 0.05, 0.4, 0.125, 3.0, 0.004 };
     const double tau = 6.283185307179586;
@@ -470,7 +466,7 @@ static void TestSpiral(void** state)
     Outline_Free(&outline);
 }
 
-static void TestCircle(void** state)
+TEST(Circle)
 {
     const Spiral circle = { { 0.0, 0.0 }, 0.5, 0.5, 0.9, -1.0, 0.001 };
     Outline outline = { .points = NULL };
@@ -479,18 +475,4 @@ static void TestCircle(void** state)
     assert_true(Outline_Holds(outline.points, outline.count - 1, (float[]){ 0.34f, 0.34f }));
     assert_false(Outline_Holds(outline.points, outline.count - 1, (float[]){ 0.37f, 0.37f }));
     Outline_Free(&outline);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTable),           cmocka_unit_test(TestOwnFrames),
-        cmocka_unit_test(TestTimes),           cmocka_unit_test(TestPaceOfOne),
-        cmocka_unit_test(TestSlowBlade),       cmocka_unit_test(TestSpiral),
-        cmocka_unit_test(TestCircle),          cmocka_unit_test(TestSpiralIsNotThrown),
-        cmocka_unit_test(TestSpiralScene),     cmocka_unit_test(TestPatchworkScene),
-        cmocka_unit_test(TestRubberStretches), cmocka_unit_test(TestRubberScene),
-        cmocka_unit_test(TestFlatScene),       cmocka_unit_test(TestFoldScenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

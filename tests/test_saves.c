@@ -202,7 +202,7 @@ static void PlayWorld(int32_t world)
     Host_Destroy(&weather.host);
 }
 
-static void TestTwinsAgree(void** state)
+TEST(TwinsAgree)
 {
     for (int32_t k = 0; k < worldCount; ++k) {
         PlayWorld(firstWorld + k);
@@ -210,7 +210,7 @@ static void TestTwinsAgree(void** state)
 }
 
 /* Triangles that are large for the grid. */
-static void TestOddMeshes(void** state)
+TEST(OddMeshes)
 {
     static Weather weather;
     for (int32_t world = SAVED_LARGE; world < SAVED_WORLDS; ++world) {
@@ -248,7 +248,7 @@ static uint64_t LayoutOf(const Host* host)
 }
 
 /* In whatever step a tick has left the work, and where memory is refused first: the cut does the same. */
-static void TestFinishedCuts(void** state)
+TEST(FinishedCuts)
 {
     const kiriBudget little = { 64, 5, 3, 0 }, unlimited = { 0 };
     Host host, whole;
@@ -305,7 +305,7 @@ static void AssertRefused(Host* host, const uint8_t* bytes, int64_t size, uint64
     assert_int_equal(Host_Hash(host), hash);
 }
 
-static void TestBytesCutShort(void** state)
+TEST(BytesCutShort)
 {
     Host host;
     StartSmall(&host);
@@ -323,7 +323,7 @@ static void TestBytesCutShort(void** state)
     Host_Stop(&host);
 }
 
-static void TestBitsThatChange(void** state)
+TEST(BitsThatChange)
 {
     Host host;
     StartSmall(&host);
@@ -339,7 +339,7 @@ static void TestBitsThatChange(void** state)
     Host_Stop(&host);
 }
 
-static void TestMisuse(void** state)
+TEST(Misuse)
 {
     Host host;
     StartSmall(&host);
@@ -368,7 +368,7 @@ static void TestMisuse(void** state)
 }
 
 /* Which is said before anything is read: another version may have written the same bytes for other things. */
-static void TestOtherVersions(void** state)
+TEST(OtherVersions)
 {
     enum { FORMAT = 8, LIBRARY = 12 };
     Host host;
@@ -417,14 +417,14 @@ static void CheckRefusedMemory(WriteFn* write, ReadFn* read)
     Host_Stop(&other);
 }
 
-static void TestRefusedMemory(void** state)
+TEST(RefusedMemory)
 {
     CheckRefusedMemory(kiriWorld_Save, kiriWorld_Load);
     CheckRefusedMemory(kiriWorld_Snapshot, kiriWorld_Restore);
 }
 
 /* Snapshots of other builds, saves, and bytes that are cut short are no snapshots. */
-static void TestNoSnapshots(void** state)
+TEST(NoSnapshots)
 {
     Host host;
     StartSmall(&host);
@@ -472,7 +472,7 @@ static int64_t MostMemory(const Save* good, int32_t number)
     return most;
 }
 
-static void TestSmallSavesTakeLittle(void** state)
+TEST(SmallSavesTakeLittle)
 {
     static const int32_t numbers[] = { INT32_MAX, 1 << 24, 1 << 16, 5000 };
     START_HOST(host);
@@ -488,18 +488,4 @@ static void TestSmallSavesTakeLittle(void** state)
     }
     free(good.bytes);
     Host_Destroy(&host);
-}
-
-int main(int count, char** arguments)
-{
-    worldCount = count > 1 ? atoi(arguments[1]) : WORLDS;
-    firstWorld = count > 2 ? atoi(arguments[2]) : 0;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestOddMeshes),      cmocka_unit_test(TestFinishedCuts),
-        cmocka_unit_test(TestTwinsAgree),     cmocka_unit_test(TestBytesCutShort),
-        cmocka_unit_test(TestBitsThatChange), cmocka_unit_test(TestMisuse),
-        cmocka_unit_test(TestOtherVersions),  cmocka_unit_test(TestRefusedMemory),
-        cmocka_unit_test(TestNoSnapshots),    cmocka_unit_test(TestSmallSavesTakeLittle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -275,7 +275,7 @@ static bool IsMeant(const char* name)
     return onlyScene != NULL ? strcmp(name, onlyScene) == 0 : refusesAll || isSome;
 }
 
-static void TestScenes(void** state)
+TEST(Scenes)
 {
     for (int32_t i = 0; Scene_GetType(i) != NULL; ++i) {
         if (IsMeant(Scene_GetType(i)->name)) {
@@ -284,10 +284,8 @@ static void TestScenes(void** state)
     }
 }
 
-int main(int count, char** arguments)
+SETUP
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestScenes) };
     refusesAll = count > 1;
-    onlyScene = count > 2 ? arguments[2] : NULL;
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    onlyScene = count > 2 ? words[2] : NULL;
 }

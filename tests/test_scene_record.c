@@ -52,7 +52,7 @@ static void CheckReplay(const char* name, int32_t ticks)
     SceneReplay_Free(&replay);
 }
 
-static void TestReplay(void** state)
+TEST(Replay)
 {
     CheckReplay("bunny", Scene_FindType("bunny")->firstCut + 20);
     CheckReplay("kirigami", Scene_FindType("kirigami")->firstCut + 3);
@@ -72,7 +72,7 @@ static void CheckOpened(const SceneReplay* replay, Scene* scene, uint64_t hash)
 }
 
 /* A recording without a scene, and a save, go on as the world did; the camera looks at the middle of all sheets. */
-static void TestWorldsOfHosts(void** state)
+TEST(WorldsOfHosts)
 {
     static uint8_t bytes[1 << 20];
     FILE* file;
@@ -120,7 +120,7 @@ static void TestWorldsOfHosts(void** state)
     remove(filePath);
 }
 
-static void TestNoRecording(void** state)
+TEST(NoRecording)
 {
     Scene scene;
     SceneReplay replay;
@@ -136,13 +136,7 @@ static void TestNoRecording(void** state)
     assert_true(SceneRecord_Close(NULL, NULL));
 }
 
-int main(int count, char** words)
+SETUP
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestReplay),
-        cmocka_unit_test(TestWorldsOfHosts),
-        cmocka_unit_test(TestNoRecording),
-    };
-    snprintf(filePath, sizeof filePath, "%s.recording", count > 0 ? words[0] : "test_scene_record");
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    snprintf(filePath, sizeof filePath, "%s.recording", words[0]);
 }

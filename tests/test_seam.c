@@ -136,9 +136,8 @@ static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t mode
     Host_Stop(&host);
 }
 
-static void TestMomentum(void** state)
+TEST(Momentum)
 {
-    (void)state;
     Throw(KIRI_MATERIAL_PAPER, 9, 9, KIRI_MODEL_LINKS);
     Throw(KIRI_MATERIAL_PAPER, 1, 16, KIRI_MODEL_LINKS);
     Throw(KIRI_MATERIAL_COTTON, 4, 16, KIRI_MODEL_LINKS);
@@ -182,17 +181,15 @@ static void Hang(int32_t preset, int32_t framesA, int32_t framesB)
     Host_Stop(&host);
 }
 
-static void TestSleep(void** state)
+TEST(Sleep)
 {
-    (void)state;
     Hang(KIRI_MATERIAL_COTTON, 9, 9);
     Hang(KIRI_MATERIAL_RUBBER, 4, 12);
 }
 
 /* Opposite edges of one sheet: a tube. The lips start apart, and are drawn together. */
-static void TestTube(void** state)
+TEST(Tube)
 {
-    (void)state;
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     START_HOST(host);
     host.every = 20;
@@ -219,9 +216,8 @@ static void TestTube(void** state)
 }
 
 /* A sleeve of two panels around an arm that moves at 0.9 m/s: the drawn lips stay together. */
-static void TestSleeve(void** state)
+TEST(Sleeve)
 {
-    (void)state;
     static const float axes[9] = { 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f };
     static const float ways[5][3] = {
         { 0.0f }, { 0.0f, 0.9f }, { 0.0f, -0.9f }, { 0.0f, 0.0f, 0.9f }, { 0.0f, 0.0f, -0.9f }
@@ -317,17 +313,15 @@ static void Hinge(int32_t frames, float stiffness)
     Host_Stop(&host);
 }
 
-static void TestHinge(void** state)
+TEST(Hinge)
 {
-    (void)state;
     Hinge(4, 5e-3f);
     Hinge(9, 5e-4f);
 }
 
 /* A strip of paper becomes a ring: its bending energy is 1/2 E h^3 / 12 (2 pi)^2 width / length. */
-static void TestRing(void** state)
+TEST(Ring)
 {
-    (void)state;
     enum { FRAMES = 12 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float length = 0.3f, width = 0.03f;
@@ -418,9 +412,8 @@ static double SagOf(int32_t framesA, int32_t framesB)
 }
 
 /* Lips whose frames differ do not stiffen paper. */
-static void TestStrip(void** state)
+TEST(Strip)
 {
-    (void)state;
     static const int32_t frames[6][2] = { { 5, 8 }, { 7, 11 }, { 9, 4 }, { 12, 9 }, { 13, 17 }, { 16, 16 } };
     double whole = SagOf(24, 0);
     for (int i = 0; i < 6; ++i) {
@@ -431,9 +424,8 @@ static void TestStrip(void** state)
 }
 
 /* Panels face to face, sewn on three sides, keep apart: but not where they are sewn. */
-static void TestBag(void** state)
+TEST(Bag)
 {
-    (void)state;
     static const float line[8] = { 0.0f, 0.5f, 0.0f, 0.0f, 0.5f, 0.0f, 0.5f, 0.5f };
     Host host;
     Host_Start(&host);
@@ -530,9 +522,8 @@ static void DropBall(float mass, float aside)
     Host_Stop(&host);
 }
 
-static void TestBagHolds(void** state)
+TEST(BagHolds)
 {
-    (void)state;
     DropBall(0.1f, 0.0f);
     DropBall(0.5f, 0.0f);
     DropBall(0.5f, 0.02f);
@@ -540,9 +531,8 @@ static void TestBagHolds(void** state)
 
 /* A budget of motion moves one pair in a tick, and the other in the next. Stitches keep the force of the last tick that
    moved them. */
-static void TestForcesStay(void** state)
+TEST(ForcesStay)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -572,9 +562,8 @@ static void TestForcesStay(void** state)
 /* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
 
 /* A cut through both sheets parts the seam. Pieces become sheets, and are destroyed. */
-static void TestPieces(void** state)
+TEST(Pieces)
 {
-    (void)state;
     static const float cut[4] = { -0.1f, 0.23f, 0.6f, 0.23f };
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -622,9 +611,8 @@ static void TestPieces(void** state)
 }
 
 /* A weak seam opens under the weight of the sheet, and names its stitches in events. */
-static void TestBreak(void** state)
+TEST(Break)
 {
-    (void)state;
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     Pair pair = Pair_Make(&host, &def, 9, 9);
@@ -694,9 +682,8 @@ static double Pull(int32_t framesA, int32_t framesB, bool peels)
     return 0.002 * tick;
 }
 
-static void TestStrength(void** state)
+TEST(Strength)
 {
-    (void)state;
     static const int32_t frames[5][2] = { { 6, 6 }, { 9, 9 }, { 16, 16 }, { 9, 16 }, { 12, 7 } };
     for (int i = 0; i < 10; ++i) {
         assert_true(fabs(Pull(frames[i % 5][0], frames[i % 5][1], i >= 5) - 1.0) < 0.1);
@@ -715,9 +702,8 @@ static void Store(const Host* host, bool isSave, void** bytes, int64_t* size)
 }
 
 /* A loaded world goes on as the saved one. */
-static void TestSaves(void** state)
+TEST(Saves)
 {
-    (void)state;
     for (int isSave = 0; isSave < 2; ++isSave) {
         Host host, twin;
         void* bytes;
@@ -743,9 +729,8 @@ static void TestSaves(void** state)
     }
 }
 
-static void TestReplay(void** state)
+TEST(Replay)
 {
-    (void)state;
     Tape tape;
     Tape_Start(&tape);
     kiriSheetDef def = Host_SmallDef();
@@ -761,9 +746,8 @@ static void TestReplay(void** state)
 
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
-static void TestMemory(void** state)
+TEST(Memory)
 {
-    (void)state;
     for (int32_t call = 0; call >= 0; ++call) {
         START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
@@ -798,9 +782,8 @@ static void Refused(Host* host, const kiriSeamDef* def, kiriResult result, const
 }
 
 /* Extreme numbers move something finite. */
-static void TestRanges(void** state)
+TEST(Ranges)
 {
-    (void)state;
     static const float numbers[] = { 0.0f, FLT_MIN, 1e-3f, 1e4f, FLT_MAX };
     static const float angles[] = { -3.14159f, 0.0f, 1e-20f, 3.14159f };
     for (int i = 0; i < 5 * 4 * 2; ++i) {
@@ -822,9 +805,8 @@ static void TestRanges(void** state)
     }
 }
 
-static void TestArguments(void** state)
+TEST(Arguments)
 {
-    (void)state;
     static const float outside[4] = { 0.5f, 0.0f, 0.7f, 0.5f }, point[4] = { 0.1f, 0.1f, 0.1f, 0.1f };
     static const float bad[4] = { 0.1f, NAN, 0.1f, 0.1f };
     START_HOST(host);
@@ -888,17 +870,4 @@ static void TestArguments(void** state)
     OK(kiriDestroySeam(host.world, pair.seam));
     assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMomentum), cmocka_unit_test(TestSleep),  cmocka_unit_test(TestTube),
-        cmocka_unit_test(TestBag),      cmocka_unit_test(TestSleeve), cmocka_unit_test(TestHinge),
-        cmocka_unit_test(TestRing),     cmocka_unit_test(TestPieces), cmocka_unit_test(TestStrength),
-        cmocka_unit_test(TestBreak),    cmocka_unit_test(TestSaves),  cmocka_unit_test(TestReplay),
-        cmocka_unit_test(TestMemory),   cmocka_unit_test(TestRanges), cmocka_unit_test(TestArguments),
-        cmocka_unit_test(TestBagHolds), cmocka_unit_test(TestForcesStay), cmocka_unit_test(TestStrip),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,7 +97,7 @@ static void Disturb(Host* host, kiriSheet sheet, uint32_t* seed)
     }
 }
 
-static void TestAsWrittenAnew(void** state)
+TEST(AsWrittenAnew)
 {
     static const Way ways[] = {
         { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false },
@@ -135,7 +135,7 @@ static void TestAsWrittenAnew(void** state)
 }
 
 /* Pieces that are cut in two sleep, and each part wakes alone: vertices have other frames than when they moved last. */
-static void TestPartsWakeAlone(void** state)
+TEST(PartsWakeAlone)
 {
     enum { CUTS = 6 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.2f };
@@ -204,7 +204,7 @@ static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pi
 }
 
 /* The detail layer takes the strain out of gathered cloth, and moves no frame; a commit does not make it jump. */
-static void TestDetailOfCurtain(void** state)
+TEST(DetailOfCurtain)
 {
     enum { GATHER = 60, HANG = 600 };
     for (int32_t frames = 25; frames <= 100; frames += 75) {
@@ -246,7 +246,7 @@ static void TestDetailOfCurtain(void** state)
 }
 
 /* The drawn surface goes through pins and held frames. */
-static void TestDetailIsHeld(void** state)
+TEST(DetailIsHeld)
 {
     static const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     enum { FRAMES = 25, MIDDLE = 12 };
@@ -279,7 +279,7 @@ static void TestDetailIsHeld(void** state)
 }
 
 /* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */
-static void TestDetailOnBall(void** state)
+TEST(DetailOnBall)
 {
     Host hosts[2];
     kiriSheet sheet[2];
@@ -320,15 +320,4 @@ static void TestDetailOnBall(void** state)
     assert_true(Look_Sheet(0, hosts[1].world, sheet[1]) == seen);
     Host_Stop(&hosts[0]);
     Host_Stop(&hosts[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestAsWrittenAnew),
-        cmocka_unit_test(TestPartsWakeAlone),
-        cmocka_unit_test(TestDetailOfCurtain), cmocka_unit_test(TestDetailIsHeld),
-        cmocka_unit_test(TestDetailOnBall),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
     return sheet;
 }
 
-static void TestHangingSheetSleeps(void** state)
+TEST(HangingSheetSleeps)
 {
     Host host;
     kiriPin pins[2];
@@ -73,7 +73,7 @@ static void TestHangingSheetSleeps(void** state)
     Host_Stop(&host);
 }
 
-static void TestCutWakes(void** state)
+TEST(CutWakes)
 {
     static const float across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };
     Host host;
@@ -95,7 +95,7 @@ static void TestCutWakes(void** state)
 }
 
 /* Sheets with a cut that waits for the budget go on sleeping, and wake one after another as their cuts take effect. */
-static void TestWaitingCutDoesNotWake(void** state)
+TEST(WaitingCutDoesNotWake)
 {
     enum { SHEETS = 6 };
     static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
@@ -166,7 +166,7 @@ static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call cal
 }
 
 /* What is new wakes it, and what is as it was does not. */
-static void TestCallsWake(void** state)
+TEST(CallsWake)
 {
     for (int call = 0; call < CALLS; ++call) {
         Host host;
@@ -183,7 +183,7 @@ static void TestCallsWake(void** state)
 }
 
 /* A hold stays a hold however often it is said; one that moves, or ends, wakes. */
-static void TestHeldSheetSleeps(void** state)
+TEST(HeldSheetSleeps)
 {
     static const float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     Host host;
@@ -244,7 +244,7 @@ static kiriSheet LieAsleep(Host* host)
     return sheet;
 }
 
-static void TestSheetOnFloorSleeps(void** state)
+TEST(SheetOnFloorSleeps)
 {
     static const struct {
         float floor, sway;
@@ -266,7 +266,7 @@ static void TestSheetOnFloorSleeps(void** state)
 }
 
 /* The floor creeps up, each tick by less than what wakes it: it is the floor that it fell asleep on that counts. */
-static void TestCreepingFloorWakes(void** state)
+TEST(CreepingFloorWakes)
 {
     Host host;
     kiriSheet sheet = LieAsleep(&host);
@@ -307,12 +307,11 @@ static int CrumpleSheet(int32_t skinning, float tilt, double* lowest)
 }
 
 /* A cloth that falls on its edge crumples. It lies on the floor, and not in it. Few starts of ten stay awake. */
-static void TestCrumpledSheetSleeps(void** state)
+TEST(CrumpledSheetSleeps)
 {
     static const float tilts[] = { 0.01f, 0.02f, 0.03f, 0.05f, 0.08f };
     double lowest = 0.0;
     int awake = 0;
-    (void)state;
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; ++skinning) {
         for (size_t i = 0; i < sizeof(tilts) / sizeof(tilts[0]); ++i) {
             awake += CrumpleSheet(skinning, tilts[i], &lowest) == 480;
@@ -321,15 +320,4 @@ static void TestCrumpledSheetSleeps(void** state)
     if (awake > 2 || lowest < -6e-3) {
         fail_msg("%d of 10 awake after 480 ticks, %g m deep", awake, lowest);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestHangingSheetSleeps), cmocka_unit_test(TestCutWakes),
-        cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
-        cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
-        cmocka_unit_test(TestWaitingCutDoesNotWake), cmocka_unit_test(TestCrumpledSheetSleeps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

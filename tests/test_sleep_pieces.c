@@ -107,7 +107,7 @@ static void Throw(Host* host, kiriSheet sheet, int strip, float up)
 
 /* The faster a strip is thrown the later it sleeps. Until then it moves as where nothing sleeps, to the last bit; and
    then no more. */
-static void TestOneByOne(void** state)
+TEST(OneByOne)
 {
     static const float speeds[STRIPS] = { 0.0f, 1.0f, 0.01f, 0.1f };
     static const int order[STRIPS] = { 0, 2, 3, 1 };
@@ -149,7 +149,7 @@ static void TestOneByOne(void** state)
 }
 
 /* What sleeps takes nothing from the budget. */
-static void TestWork(void** state)
+TEST(Work)
 {
     kiriSheetDef def = StripsDef();
     kiriProfile profile;
@@ -269,7 +269,7 @@ static void PerformWithPin(Host* host, kiriSheet sheet, Call call)
 }
 
 /* What is new to a piece wakes it, and no other. */
-static void TestCallsWake(void** state)
+TEST(CallsWake)
 {
     for (int call = 0; call < CALLS; ++call) {
         Host host;
@@ -290,7 +290,7 @@ static void TestCallsWake(void** state)
 }
 
 /* Contacts that a piece fell asleep with leave it asleep, whatever others get. */
-static void TestContactsOfOthers(void** state)
+TEST(ContactsOfOthers)
 {
     Host host;
     kiriSheet sheet = StartStrips(&host);
@@ -315,7 +315,7 @@ static void TestContactsOfOthers(void** state)
 
 /* Each corner of a small sheet lies in a groove: two contacts at one point, of one obstacle. Asleep they are told what
    each pushed with. */
-static void TestContactsOfOnePoint(void** state)
+TEST(ContactsOfOnePoint)
 {
     enum { CONTACTS = 8 };
     static const float slope = 0.6f, rise = 0.8f, down[3] = { 0.0f, 0.0f, -9.81f };
@@ -365,7 +365,7 @@ static void TestContactsOfOnePoint(void** state)
 
 /* A slit wakes the piece that it is in, and what cuts it in two both parts; the strips beside it share squares with
    it. */
-static void TestCutWakesItsPiece(void** state)
+TEST(CutWakesItsPiece)
 {
     static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.6f };
     static const float loop[8] = { 0.6f, 0.7f, 0.7f, 0.7f, 0.65f, 0.9f, 0.6f, 0.7f };
@@ -401,7 +401,7 @@ static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
     return ball;
 }
 
-static void TestObstacleWakesWhatIsNear(void** state)
+TEST(ObstacleWakesWhatIsNear)
 {
     Host host;
     kiriSheet sheet = StartStrips(&host);
@@ -423,7 +423,7 @@ static void TestObstacleWakesWhatIsNear(void** state)
 }
 
 /* Away from under a piece, an obstacle wakes that. */
-static void TestObstacleGoes(void** state)
+TEST(ObstacleGoes)
 {
     Host host;
     kiriSheet sheet = StartStrips(&host);
@@ -468,7 +468,7 @@ static void PutAndTake(Host* host, kiriSheet sheet, float u, uint32_t woken)
 
 /* Where a strip has left a large sheet is no piece: an obstacle that moves there, is put there or taken away, in
    a sheet that sleeps or of which a strip moves, wakes what is beside the gap, and that alone. */
-static void TestObstacleBesideGone(void** state)
+TEST(ObstacleBesideGone)
 {
     static const float places[3] = { 0.39f, 0.527f, 0.233f }; /* amid the strip that left; near the strip after, and before it */
     static const int woken[3] = { -1, 2, 0 };
@@ -498,7 +498,7 @@ static void TestObstacleBesideGone(void** state)
 }
 
 /* Strips on a floor sleep while one is pushed about. All the while the floor bears the weight of all. */
-static void TestFloorBearsSleepers(void** state)
+TEST(FloorBearsSleepers)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
     kiriSheetDef def = StripsDef();
@@ -531,7 +531,7 @@ static void TestFloorBearsSleepers(void** state)
 
 /* What a table bears of strips that sleep follows the length of the tick, and where its centre of mass is: it is moved
    too little to wake anybody. */
-static void TestWhatSleepersPressWith(void** state)
+TEST(WhatSleepersPressWith)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     float at[3] = { 0.5f, 0.5f, -0.1f };
@@ -571,7 +571,7 @@ static void TestWhatSleepersPressWith(void** state)
 /* ---- Pieces that touch ---- */
 
 /* The first strip is carried over the second, and laid down there. */
-static void TestPiecesThatTouch(void** state)
+TEST(PiecesThatTouch)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
     static const struct {
@@ -621,7 +621,7 @@ static void TestPiecesThatTouch(void** state)
 /* ---- Parts ---- */
 
 /* A piece that sleeps sleeps on as a sheet of its own, and so do those that are left. */
-static void TestDetachAsleep(void** state)
+TEST(DetachAsleep)
 {
     Host host;
     kiriSheet sheet = StartStrips(&host), part;
@@ -643,23 +643,3 @@ static void TestDetachAsleep(void** state)
 }
 
 /* ---- Memory ---- */
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestOneByOne),
-        cmocka_unit_test(TestWork),
-        cmocka_unit_test(TestCallsWake),
-        cmocka_unit_test(TestContactsOfOthers),
-        cmocka_unit_test(TestContactsOfOnePoint),
-        cmocka_unit_test(TestCutWakesItsPiece),
-        cmocka_unit_test(TestObstacleWakesWhatIsNear),
-        cmocka_unit_test(TestObstacleGoes),
-        cmocka_unit_test(TestObstacleBesideGone),
-        cmocka_unit_test(TestFloorBearsSleepers),
-        cmocka_unit_test(TestWhatSleepersPressWith),
-        cmocka_unit_test(TestPiecesThatTouch),
-        cmocka_unit_test(TestDetachAsleep),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

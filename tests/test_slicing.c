@@ -208,22 +208,20 @@ static void Play(uint32_t seed, bool hasBudget, bool hasTasks, int ticks)
     Host_Stop(&game.host);
 }
 
-static void TestGames(void** state)
+TEST(Games)
 {
     for (uint32_t seed = firstSeed; seed < firstSeed + seeds; ++seed) {
         Play(seed, (seed & 1) != 0, (seed & 2) != 0, isLong ? 3600 : 200);
     }
 }
 
-int main(int count, char** arguments)
+SETUP
 {
     isLong = count > 1;
     seeds = isLong ? 20 : 4;
     if (count > 3) { /* first seed, count */
-        firstSeed = (uint32_t)strtoul(arguments[2], NULL, 10);
-        seeds = (uint32_t)strtoul(arguments[3], NULL, 10);
+        firstSeed = (uint32_t)strtoul(words[2], NULL, 10);
+        seeds = (uint32_t)strtoul(words[3], NULL, 10);
     }
     banners = isLong ? MOST_BANNERS : banners;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestGames) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,7 +90,7 @@ static void BlockHasNoCorners(kiriSheetData* sheet)
 
 SPOIL(CornerIsNone, sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE)
 
-static void TestMesh(void** state)
+TEST(Mesh)
 {
     static const Spoiler spoilers[] = {
         { "TwinIsAnother", TwinIsAnother },         { "SourceIsFar", SourceIsFar },
@@ -108,7 +108,7 @@ static void TestMesh(void** state)
 SPOIL(FrameIsOfNoPiece, sheet->layout.framePiece.data[0] = 1 << 28)
 SPOIL(FrameHasNoPiece, sheet->layout.framePiece.count -= 1)
 
-static void TestLayout(void** state)
+TEST(Layout)
 {
     static const Spoiler spoilers[] = {
         { "FrameIsOfNoPiece", FrameIsOfNoPiece },
@@ -124,7 +124,7 @@ static void TestLayout(void** state)
 SPOIL(WeightIsNotFinite, sheet->shape.rigidWeight = HUGE_VAL)
 SPOIL(SiteIsFarFromItsAnchor, sheet->frames.data[0].site.at.x += 0.5)
 
-static void TestFrames(void** state)
+TEST(Frames)
 {
     static const Spoiler spoilers[] = {
         { "WeightIsNotFinite", WeightIsNotFinite },
@@ -146,7 +146,7 @@ static void ChangeIsBeyond(kiriSheetData* sheet)
 
 SPOIL(PatienceIsNegative, sheet->seen.bounds->patience = -1)
 
-static void TestSeen(void** state)
+TEST(Seen)
 {
     static const Spoiler spoilers[] = {
         { "ChangeIsBeyond", ChangeIsBeyond },
@@ -168,7 +168,7 @@ static void PointEndsACutThatGoesOn(kiriSheetData* sheet)
 
 SPOIL(BladeIsAtWork, sheet->cuts.data[0]->tip.blade.phase = KIRI_BLADE_LOOKS)
 
-static void TestCuts(void** state)
+TEST(Cuts)
 {
     static const Spoiler spoilers[] = {
         { "PointEndsACutThatGoesOn", PointEndsACutThatGoesOn },
@@ -225,7 +225,7 @@ static void FramesShareASite(kiriSheetData* sheet)
     frames[1].site = frames[0].site;
 }
 
-static void TestPiecesElsewhere(void** state)
+TEST(PiecesElsewhere)
 {
     static const Spoiler spoilers[] = {
         { "FramesChangePlaces", FramesChangePlaces },
@@ -256,9 +256,8 @@ SPOIL_STITCH(ShareIsZero, stitch->share = 0.0)
 SPOIL_STITCH(SeamIsOther, sewn.world->seams.data[0]->id += 1)
 SPOIL_STITCH(SeamIsEmpty, sewn.world->seams.data[0]->stitches.count = 0)
 
-static void TestSeams(void** state)
+TEST(Seams)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "FrameIsNone", FrameIsNone },         { "PointIsFar", PointIsFar },
         { "PointIsOutside", PointIsOutside },   { "LengthIsNegative", LengthIsNegative },
@@ -279,15 +278,4 @@ static void TestSeams(void** state)
     seam.countA = seam.countB = 2;
     OK(kiriCreateSeam(sewn.world, &seam, &made));
     CHECK_ALL_REFUSED(&sewn, spoilers);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),   
-        cmocka_unit_test(TestLayout), cmocka_unit_test(TestFrames),
-        cmocka_unit_test(TestSeen),   cmocka_unit_test(TestCuts),
-        cmocka_unit_test(TestPiecesElsewhere), cmocka_unit_test(TestSeams),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

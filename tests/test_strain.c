@@ -72,7 +72,7 @@ static void CheckSlopes(const Couple* couple, double eps, double most, double mo
     }
 }
 
-static void TestStrainDerivatives(void** state)
+TEST(StrainDerivatives)
 {
     uint32_t seed = 7;
     int stopped = 0;
@@ -87,7 +87,7 @@ static void TestStrainDerivatives(void** state)
 }
 
 /* Turned against each other by up to half a turn: derivatives, and no jump on the way to the other side. */
-static void TestFoldsAreSmooth(void** state)
+TEST(FoldsAreSmooth)
 {
     uint32_t seed = 17;
     const double pi = 3.14159265358979;
@@ -103,7 +103,7 @@ static void TestFoldsAreSmooth(void** state)
 
 /* Stretch, shear and plane bending cost nothing next to half a turn, for any offset and lean of the frames: no wall stops
    the way round. */
-static void TestHalfTurnHasNoWall(void** state)
+TEST(HalfTurnHasNoWall)
 {
     uint32_t seed = 19;
     const double pi = 3.14159265358979;
@@ -124,7 +124,7 @@ static void TestHalfTurnHasNoWall(void** state)
 }
 
 /* A link that is pressed keeps a part of its stiffness, without a kink where tension turns into compression. */
-static void TestSlackHasNoKink(void** state)
+TEST(SlackHasNoKink)
 {
     uint32_t seed = 23;
     const double eps = 1e-7, slack = 0.96, reach = 1e-3;
@@ -187,7 +187,7 @@ static void TurnAround(Couple* c, int kind, uint32_t* seed)
 
 /* Any pose, folds and flips included: the energy is continuous, and its slope equals the derivative. Paths through half a turn
    have no larger steps than the slopes at their ends allow. */
-static void TestEveryPoseIsSmooth(void** state)
+TEST(EveryPoseIsSmooth)
 {
     enum { STEPS = 32 };
     uint32_t seed = 23;
@@ -222,12 +222,11 @@ static void TestEveryPoseIsSmooth(void** state)
 }
 
 /* The strains of a fold: their slopes are their derivatives, at any angle but half a turn off the rest angle. */
-static void TestFoldLinesAreSmooth(void** state)
+TEST(FoldLinesAreSmooth)
 {
     uint32_t seed = 29;
     const double eps = 1e-6;
     int looked = 0;
-    (void)state;
     for (int trial = 0; trial < 3000; ++trial) {
         Couple couple = RandomCouple(&seed);
         couple.material = Paper;
@@ -319,7 +318,7 @@ static void CheckEnergies(double outer)
     AssertNear(twist / (0.5 * B * (1.0 - nu) * (inner + 2.0 * outer) * e * e), 1.0, 1e-6);
 }
 
-static void TestEnergies(void** state)
+TEST(Energies)
 {
     CheckEnergies(0.0);
     CheckEnergies(0.02);
@@ -354,7 +353,7 @@ static double EnergyWith(Body* b, int f, kiriVec3 move, kiriVec3 turn)
 
 /* The forces that the solver assembles, from rows of links that it keeps for the corners, against the energy of each
    element by itself; with strains that are taken off. */
-static void TestForcesAreTheSlopeOfTheEnergy(void** state)
+TEST(ForcesAreTheSlopeOfTheEnergy)
 {
     static kiriStrainOffset offsets[2 * BODY_FRAMES];
     const double eps = 1e-6;
@@ -444,7 +443,7 @@ static void CheckLink(const Body* b, const kiriLink* link, uint32_t* seed, int* 
     }
 }
 
-static void TestLinkDerivatives(void** state)
+TEST(LinkDerivatives)
 {
     uint32_t seed = 9;
     int stopped = 0;
@@ -483,7 +482,7 @@ static void CheckAreaElement(const Body* b, const kiriAreaElement* element, kiri
     }
 }
 
-static void TestAreaElementDerivatives(void** state)
+TEST(AreaElementDerivatives)
 {
     uint32_t seed = 5;
     kiriPose poses[BODY_FRAMES];
@@ -499,21 +498,4 @@ static void TestAreaElementDerivatives(void** state)
         }
         Body_Drop(&body);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestStrainDerivatives),
-        cmocka_unit_test(TestFoldsAreSmooth),
-        cmocka_unit_test(TestHalfTurnHasNoWall),
-        cmocka_unit_test(TestEveryPoseIsSmooth),
-        cmocka_unit_test(TestSlackHasNoKink),
-        cmocka_unit_test(TestFoldLinesAreSmooth),
-        cmocka_unit_test(TestEnergies),
-        cmocka_unit_test(TestForcesAreTheSlopeOfTheEnergy),
-        cmocka_unit_test(TestLinkDerivatives),
-        cmocka_unit_test(TestAreaElementDerivatives),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -188,7 +188,7 @@ static void CheckOnceWrong(int32_t motion, const int32_t* seeds, int32_t count)
     }
 }
 
-static void TestSwipeOnceWrong(void** state)
+TEST(SwipeOnceWrong)
 {
     static const int32_t sways[] = { 88,   146,  195,  289,  327,  373,  430,  737,  812,  993,   1127,
                                      1305, 1330, 1387, 1555, 1804, 1876, 1896, 2681,
@@ -311,9 +311,9 @@ typedef struct Runs {
 } Runs;
 
 static Runs allRuns[] = {
-    { "TestSwipeStill", Swipe, STILL, 8 }, { "TestSwipeSwaying", Swipe, SWAYS, 9 }, { "TestSwipeBlown", Swipe, BLOWN, 6 },
-    { "TestHoldSwaying", Hold, SWAYS, 4 }, { "TestHoldBlown", Hold, BLOWN, 4 },     { "TestSaw", Saw, STILL, 5 },
-    { "TestChop", Chop, STILL, 5 },        { "TestFinger", Finger, STILL, 5 },
+    { "SwipeStill", Swipe, STILL, 8 }, { "SwipeSwaying", Swipe, SWAYS, 9 }, { "SwipeBlown", Swipe, BLOWN, 6 },
+    { "HoldSwaying", Hold, SWAYS, 4 }, { "HoldBlown", Hold, BLOWN, 4 },     { "Saw", Saw, STILL, 5 },
+    { "Chop", Chop, STILL, 5 },        { "Finger", Finger, STILL, 5 },
 };
 enum { KINDS = sizeof(allRuns) / sizeof(allRuns[0]) };
 
@@ -330,15 +330,13 @@ static void CheckRuns(void** state)
     assert_int_equal(wrong, 0);
 }
 
-int main(int argc, char** argv)
+SETUP
 {
-    runCount = argc > 1 ? atoi(argv[1]) : runCount;
-    firstSeed = argc > 2 ? atoi(argv[2]) : firstSeed;
-    cmocka_set_test_filter(argc > 3 ? argv[3] : NULL);
-    heldSeconds = argc > 4 ? atoi(argv[4]) : heldSeconds;
-    struct CMUnitTest tests[1 + KINDS] = { cmocka_unit_test(TestSwipeOnceWrong) };
+    runCount = count > 1 ? atoi(words[1]) : runCount;
+    firstSeed = count > 2 ? atoi(words[2]) : firstSeed;
+    cmocka_set_test_filter(count > 3 ? words[3] : NULL);
+    heldSeconds = count > 4 ? atoi(words[4]) : heldSeconds;
     for (int k = 0; k < KINDS; ++k) {
-        tests[1 + k] = (struct CMUnitTest){ allRuns[k].name, CheckRuns, NULL, NULL, &allRuns[k] };
+        Test_Add(allRuns[k].name, CheckRuns, &allRuns[k], __LINE__);
     }
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

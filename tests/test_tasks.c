@@ -230,7 +230,7 @@ static int64_t Compare(int32_t workers, const kiriBudget* budget, int32_t ticks)
 
 /* ---- Tests ---- */
 
-static void AnyCrewGivesTheSameBits(void** state)
+TEST(AnyCrewGivesTheSameBits)
 {
     static const int32_t crews[] = { -1, 1, 2, 16 };
     static const kiriBudget all = { 0, 0, 0, 0 };
@@ -240,7 +240,7 @@ static void AnyCrewGivesTheSameBits(void** state)
 }
 
 /* Systems for about one sheet in three: those share what is left that come first. */
-static void SoItDoesOnABudget(void** state)
+TEST(SoItDoesOnABudget)
 {
     static const kiriBudget tight = { 32, 60, 40, 14 }, wide = { 64, 200, 100, 120 };
     Compare(-1, &tight, 24);
@@ -269,12 +269,12 @@ static int32_t TasksOfFall(bool hasObstacle)
     return tasks;
 }
 
-static void SheetsLookForObstaclesInATask(void** state)
+TEST(SheetsLookForObstaclesInATask)
 {
     assert_int_equal(TasksOfFall(true), TasksOfFall(false) + 1);
 }
 
-static void HooksComeTogether(void** state)
+TEST(HooksComeTogether)
 {
     Host host;
     kiriWorld* world = NULL;
@@ -293,15 +293,4 @@ static void HooksComeTogether(void** state)
     OK(kiriCreateWorld(&def, &world));
     kiriDestroyWorld(world);
     assert_int_equal(host.live, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(AnyCrewGivesTheSameBits),
-        cmocka_unit_test(SoItDoesOnABudget),
-        cmocka_unit_test(SheetsLookForObstaclesInATask),
-        cmocka_unit_test(HooksComeTogether),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

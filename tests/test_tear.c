@@ -130,10 +130,9 @@ static double Strip_PullToTear(Strip* s, double more)
 }
 
 /* A crack of length 2 a amid a strip of width W tears at the stress sigma: sigma^2 pi a sec(pi a / W) = toughness E. */
-static void TestCentreCrackTearsAtItsLoad(void** state)
+TEST(CentreCrackTearsAtItsLoad)
 {
     static const int32_t frames[] = { 32, 64, 100 };
-    (void)state;
     for (int k = 0; k < 3; ++k) {
         Strip s;
         double a = 0.025, toughness = 100.0;
@@ -160,10 +159,9 @@ static void TearTo(Strip* s, double u, double tip[2])
     }
 }
 
-static void TestTearTurnsAcrossThePull(void** state)
+TEST(TearTurnsAcrossThePull)
 {
     static const int32_t frames[] = { 32, 64 };
-    (void)state;
     for (int k = 0; k < 2; ++k) {
         Strip s;
         double tip[2];
@@ -178,9 +176,8 @@ static void TestTearTurnsAcrossThePull(void** state)
     }
 }
 
-static void TestTearFollowsTheGrain(void** state)
+TEST(TearFollowsTheGrain)
 {
-    (void)state;
     for (int side = -1; side <= 1; side += 2) {
         Strip s;
         double tip[2];
@@ -214,9 +211,8 @@ static int32_t CountMet(const Strip* s)
     return met;
 }
 
-static void TestTearStopsAtACut(void** state)
+TEST(TearStopsAtACut)
 {
-    (void)state;
     Strip s;
     Strip_Start(&s, 48, 64);
     kiriTearing tearing = TearingOf(100.0);
@@ -306,11 +302,10 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 }
 
 /* A leg pulls with toughness h / 2. */
-static void TestTrouserPullsWithItsForce(void** state)
+TEST(TrouserPullsWithItsForce)
 {
     static const double youngs[] = { 2e7, 2e9 };
     static const int32_t frames[] = { 16, 32, 64 };
-    (void)state;
     for (int e = 0; e < 2; ++e) {
         for (int k = 0; k < 3; ++k) {
             START_HOST(host);
@@ -349,9 +344,8 @@ static void PlayTo(Trouser* t, kiriWorld* world, int32_t ticks)
     }
 }
 
-static void TestSavesAndSnapshotsGoOn(void** state)
+TEST(SavesAndSnapshotsGoOn)
 {
-    (void)state;
     for (int kind = 0; kind < 2; ++kind) {
         START_HOST(host);
         START_HOST(other);
@@ -386,9 +380,8 @@ static void TestSavesAndSnapshotsGoOn(void** state)
     }
 }
 
-static void TestTearsAreReplayed(void** state)
+TEST(TearsAreReplayed)
 {
-    (void)state;
     Tape tape;
     Trouser t;
     Tape_Start(&tape);
@@ -398,10 +391,9 @@ static void TestTearsAreReplayed(void** state)
 }
 
 /* Refused memory, and a small budget: the tear waits, and goes on. */
-static void TestTearsWait(void** state)
+TEST(TearsWait)
 {
     static const kiriBudget small = { 40, 400, 200, 0 };
-    (void)state;
     for (int kind = 0; kind < 2; ++kind) {
         START_HOST(host);
         Trouser t;
@@ -426,9 +418,8 @@ static void TestTearsWait(void** state)
 }
 
 /* A piece that is torn off comes off, and leaves; tips of the rest stay. */
-static void TestTearsPart(void** state)
+TEST(TearsPart)
 {
-    (void)state;
     START_HOST(host);
     Trouser t;
     Told told = { 0 };
@@ -456,9 +447,8 @@ static void TestTearsPart(void** state)
 }
 
 /* Without toughness a world is the same to the bit, and allocates nothing more. */
-static void TestNothingCostsWithoutToughness(void** state)
+TEST(NothingCostsWithoutToughness)
 {
-    (void)state;
     int64_t calls[2];
     uint64_t hash[2];
     for (int k = 0; k < 2; ++k) {
@@ -483,9 +473,8 @@ static void TestNothingCostsWithoutToughness(void** state)
 
 /* ---- Arguments --------------------------------------------------------------------------------------------------- */
 
-static void TestTearingIsChecked(void** state)
+TEST(TearingIsChecked)
 {
-    (void)state;
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriTearing tearing = TearingOf(500.0), got;
@@ -520,22 +509,4 @@ static void TestTearingIsChecked(void** state)
     got.toughness = 0.0f;
     OK(kiriSheet_SetTearing(host.world, affine, &got));
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestCentreCrackTearsAtItsLoad),
-        cmocka_unit_test(TestTearTurnsAcrossThePull),
-        cmocka_unit_test(TestTearFollowsTheGrain),
-        cmocka_unit_test(TestTearStopsAtACut),
-        cmocka_unit_test(TestTrouserPullsWithItsForce),
-        cmocka_unit_test(TestSavesAndSnapshotsGoOn),
-        cmocka_unit_test(TestTearsAreReplayed),
-        cmocka_unit_test(TestTearsWait),
-        cmocka_unit_test(TestTearsPart),
-        cmocka_unit_test(TestNothingCostsWithoutToughness),
-        cmocka_unit_test(TestTearingIsChecked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

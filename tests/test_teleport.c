@@ -171,7 +171,7 @@ static void CheckTeleport(int kind, int order, int model, int skinning, int32_t 
     Host_Stop(&scenes[1].host);
 }
 
-static void TestSheetsAtRest(void** state)
+TEST(SheetsAtRest)
 {
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int order = 0; order < ORDERS; ++order) {
@@ -183,7 +183,7 @@ static void TestSheetsAtRest(void** state)
 }
 
 /* A target that is set before counts as moved, though by nothing: that step is one of backward Euler. */
-static void TestSwingingSheets(void** state)
+TEST(SwingingSheets)
 {
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int order = ALONE; order < SET_FIRST && kind != ON_OBSTACLE; ++order) {
@@ -209,7 +209,7 @@ static void MovePins(Scene* scene, int32_t tick, const Motion* motion)
     }
 }
 
-static void TestMovingPins(void** state)
+TEST(MovingPins)
 {
     static const Motion none = { { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f }, { 0.0f, 0.0f, 0.0f } },
                         away = { { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, { 16.0f, -4.0f, 2.0f } };
@@ -384,7 +384,7 @@ static void CompareEverything(const Everything* a, const Everything* b, int32_t 
     }
 }
 
-static void TestOrigin(void** state)
+TEST(Origin)
 {
     static Everything worlds[2];
     static const float none[3] = { 0.0f, -0.0f, 0.0f };
@@ -427,7 +427,7 @@ static void TestOrigin(void** state)
     Host_Stop(&worlds[1].host);
 }
 
-static void TestOriginIsChecked(void** state)
+TEST(OriginIsChecked)
 {
     static Everything all;
     const float far[3] = { 0.0f, 3e38f, 0.0f }, nan[3] = { NAN, 0.0f, 0.0f };
@@ -438,13 +438,4 @@ static void TestOriginIsChecked(void** state)
     assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, far), KIRI_ERROR_ARGUMENT);
     assert_true(hash == Host_Hash(&all.host));
     Host_Stop(&all.host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSheetsAtRest), cmocka_unit_test(TestSwingingSheets),  cmocka_unit_test(TestMovingPins),
-        cmocka_unit_test(TestOrigin),       cmocka_unit_test(TestOriginIsChecked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

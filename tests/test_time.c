@@ -103,7 +103,7 @@ static void AssertTurns(const StripDef* d, double angle, double hertz, double to
 
 /* A torque acts through the objective, as other forces do, and not on the free turn over the step: with dt^2 torque /
    inertia far above a turn (some hundred with 17 frames at 60 Hz) that one would wrap around. */
-static void TestTorqueArrives(void** state)
+TEST(TorqueArrives)
 {
     const int frames[3] = { 5, 9, 17 };
     const double hertz[3] = { 60.0, 120.0, 480.0 };
@@ -115,7 +115,7 @@ static void TestTorqueArrives(void** state)
 
 /* Affine frames, whose normals the membrane keeps; and in the plane of the sheet, rigid and affine ones. The strip is
    soft enough for the plane, and one region wide: affine ones bend a little too easily in it. */
-static void TestTorqueArrivesInOtherSheets(void** state)
+TEST(TorqueArrivesInOtherSheets)
 {
     const StripDef defs[3] = { { 9, KIRI_MODEL_AFFINE, 0, 3e8f },
                                { 9, KIRI_MODEL_LINKS, 1, 1e5f },
@@ -127,7 +127,7 @@ static void TestTorqueArrivesInOtherSheets(void** state)
 }
 
 /* At rest under a steady torque the links give as much as the torque takes: no step is taken anew. */
-static void TestTorqueAtRest(void** state)
+TEST(TorqueAtRest)
 {
     for (int frames = 5; frames <= 17; frames += 6) {
         const StripDef d = { frames, KIRI_MODEL_LINKS, 0, 0.0f };
@@ -240,7 +240,7 @@ static double EnergyLeft(const Swing* swing, double seconds)
     return left;
 }
 
-static void TestSwingLasts(void** state)
+TEST(SwingLasts)
 {
     const Swing two = { 0, 2, 1, false, 1.5 }, four = { 0, 4, 1, false, 1.5 }, euler = { 1, 2, 1, false, 1.5 };
     const Swing uneven = { 0, 0, 1, true, 1.5 }, more = { 0, 0, 2, true, 1.5 };
@@ -278,7 +278,7 @@ static double SagError(int timeStepping, int substeps, const double exact[3])
     return error;
 }
 
-static void TestOrder(void** state)
+TEST(Order)
 {
     double exact[3];
     Sag(KIRI_TIME_STEPPING_SECOND_ORDER, 64, exact);
@@ -315,7 +315,7 @@ static double EnergyLeftBesideSlit(int timeStepping)
     return left;
 }
 
-static void TestSlitGrows(void** state)
+TEST(SlitGrows)
 {
     double left = EnergyLeftBesideSlit(KIRI_TIME_STEPPING_SECOND_ORDER);
     assert_true(left > 0.8 && left < 1.02);
@@ -323,13 +323,3 @@ static void TestSlitGrows(void** state)
 }
 
 /* ---- History ----------------------------------------------------------------------------------------------------- */
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestTorqueArrives),   cmocka_unit_test(TestTorqueArrivesInOtherSheets),
-        cmocka_unit_test(TestTorqueAtRest),    cmocka_unit_test(TestSwingLasts),
-        cmocka_unit_test(TestOrder),           cmocka_unit_test(TestSlitGrows),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -68,7 +68,7 @@ static void TakeSome(kiriTouchMemory* memory, PlainForces* plain, uint32_t* seed
     kiriTouchMemory_DropTaken(memory);
 }
 
-static void TestForcesAreSorted(void** state)
+TEST(ForcesAreSorted)
 {
     kiriMemory owner = kiriMemory_Make(NULL, NULL, NULL);
     kiriTouchMemory memory;
@@ -86,10 +86,4 @@ static void TestForcesAreSorted(void** state)
     }
     assert_int_equal(memory.given, memory.touches.count);
     kiriMemory_FreeAll(&owner);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestForcesAreSorted) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

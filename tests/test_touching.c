@@ -193,7 +193,7 @@ static void Run(int layout, int way, uint32_t seed, int ticks)
     Host_Stop(&t.host);
 }
 
-static void TestEnergyNeverRises(void** state)
+TEST(EnergyNeverRises)
 {
     for (int layout = 0; layout < LAYOUTS; ++layout) {
         for (int way = 0; way < WAYS; ++way) {
@@ -206,7 +206,7 @@ static void TestEnergyNeverRises(void** state)
 }
 
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */
-static void TestSideBySideRests(void** state)
+TEST(SideBySideRests)
 {
     enum { SIDE = 16 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
@@ -271,7 +271,7 @@ static void Meet(double off, double width, bool isUpwards)
     Host_Stop(&host);
 }
 
-static void TestMomentumStays(void** state)
+TEST(MomentumStays)
 {
     Meet(0.0, 0.2, false);
     Meet(0.1, 0.2, false);
@@ -282,7 +282,7 @@ static void TestMomentumStays(void** state)
 
 /* A tick without memory for contacts between sheets moves them without these contacts, or moves nothing. A heap stays
    finite, stops nowhere, and rests when there is memory again. */
-static void TestScarceMemory(void** state)
+TEST(ScarceMemory)
 {
     for (int every = 2; every <= 7; ++every) {
         Touching t;
@@ -312,13 +312,4 @@ static void TestScarceMemory(void** state)
         assert_true(refused > 0 && !awake);
         Host_Stop(&t.host);
     }
-}
-
-int main(int count, char** arguments)
-{
-    isLoud = count > 1;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestEnergyNeverRises), cmocka_unit_test(TestSideBySideRests),
-                                        cmocka_unit_test(TestMomentumStays),
-                                        cmocka_unit_test(TestScarceMemory) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

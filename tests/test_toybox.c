@@ -147,14 +147,14 @@ static void PlayBox(uint32_t seed)
     Host_Stop(&box.host);
 }
 
-static void TestToys(void** state)
+TEST(Toys)
 {
     for (uint32_t seed = firstSeed; seed < firstSeed + seeds; ++seed) {
         PlayBox(seed);
     }
 }
 
-int main(int count, char** arguments)
+SETUP
 {
     if (count > 1) {
         isLong = true;
@@ -163,9 +163,7 @@ int main(int count, char** arguments)
         seeds = 50;
     }
     if (count > 3) { /* first seed, count */
-        firstSeed = (uint32_t)strtoul(arguments[2], NULL, 10);
-        seeds = (uint32_t)strtoul(arguments[3], NULL, 10);
+        firstSeed = (uint32_t)strtoul(words[2], NULL, 10);
+        seeds = (uint32_t)strtoul(words[3], NULL, 10);
     }
-    const struct CMUnitTest tests[] = { cmocka_unit_test(TestToys) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,7 +72,7 @@ static void CheckMomentum(const Host* host, kiriSheet sheet, const double* momen
 
 /* Each gets as many ticks as any other, or one more or less. One that waits stays where it is and keeps its
    velocity. */
-static void TestPiecesTakeTurns(void** state)
+TEST(PiecesTakeTurns)
 {
     Host host;
     kiriFrame frames[MOST];
@@ -112,7 +112,7 @@ static void TestPiecesTakeTurns(void** state)
 }
 
 /* Forces are of one tick, also for those that wait in it. */
-static void TestForcesAreUsedUp(void** state)
+TEST(ForcesAreUsedUp)
 {
     Host host;
     kiriFrame frames[MOST];
@@ -136,7 +136,7 @@ static void TestForcesAreUsedUp(void** state)
 }
 
 /* Small sheets that come after the dice are moved as well. */
-static void TestSheetsTakeTurns(void** state)
+TEST(SheetsTakeTurns)
 {
     enum { OTHERS = 3 };
     Host host;
@@ -202,7 +202,7 @@ static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t c
     Host_Stop(&host);
 }
 
-static void TestSeenWhileWaiting(void** state)
+TEST(SeenWhileWaiting)
 {
     for (int32_t cells = 0; cells <= 5000; cells += 2500) {
         CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f, 0.25f, cells);
@@ -213,7 +213,7 @@ static void TestSeenWhileWaiting(void** state)
 }
 
 /* Who comes next is a part of the state. */
-static void TestSaveWhileWaiting(void** state)
+TEST(SaveWhileWaiting)
 {
     Host host, other;
     int64_t size;
@@ -236,13 +236,4 @@ static void TestSaveWhileWaiting(void** state)
     free(bytes);
     Host_Stop(&host);
     Host_Stop(&other);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestPiecesTakeTurns),  cmocka_unit_test(TestForcesAreUsedUp),
-        cmocka_unit_test(TestSheetsTakeTurns),        cmocka_unit_test(TestSeenWhileWaiting), cmocka_unit_test(TestSaveWhileWaiting),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -138,7 +138,7 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
     Host_Stop(&hosts[1]);
 }
 
-static void TestIncrementalEqualsFromScratch(void** state)
+TEST(IncrementalEqualsFromScratch)
 {
     for (int32_t number = 0; number < 80; ++number) {
         uint32_t seed = 1000u + (uint32_t)number;
@@ -156,7 +156,7 @@ static void TestIncrementalEqualsFromScratch(void** state)
 
 /* An outline passes the corners of squares at some steps of the lattice. A blade splits it at a point that is rounded to
    the lattice. Then squares that the sheet only just entered have no cell any more. */
-static void TestOutlineLeavesSquares(void** state)
+TEST(OutlineLeavesSquares)
 {
     int32_t gone = 0;
     for (uint32_t number = 0; number < 12; ++number) {
@@ -302,7 +302,7 @@ static void GiveCircle(Host* host, kiriSheet sheet, int32_t index)
 
 /* Any work ends, as without a budget: a long cut; squares that take many ticks each, and squares that are many more than
    a tick takes; many pieces at once; many sheets. */
-static void TestAnyBudgetEqualsNone(void** state)
+TEST(AnyBudgetEqualsNone)
 {
     static const struct {
         void (*give)(Host* host, kiriSheet sheet, int32_t index);
@@ -345,7 +345,7 @@ static void TestAnyBudgetEqualsNone(void** state)
 
 /* Points come every tick, faster than the budget takes them; what is given before one tick still takes effect
    together. */
-static void TestBladeFasterThanItsBudget(void** state)
+TEST(BladeFasterThanItsBudget)
 {
     for (uint32_t number = 0; number < 12; ++number) {
         Host hosts[2];
@@ -377,7 +377,7 @@ static void TestBladeFasterThanItsBudget(void** state)
     }
 }
 
-static void TestBudgetsThatAreNone(void** state)
+TEST(BudgetsThatAreNone)
 {
     START_HOST(host);
     kiriBudget few = { .triangles = KIRI_LEAST_TRIANGLES - 1, .cells = 0, .samples = 0, .iterations = 0 };
@@ -390,7 +390,7 @@ static void TestBudgetsThatAreNone(void** state)
     Host_Stop(&host);
 }
 
-static void TestBudgetFromTime(void** state)
+TEST(BudgetFromTime)
 {
     kiriProfile profile;
     memset(&profile, 0, sizeof(profile));
@@ -452,7 +452,7 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 }
 
 /* What comes of a cut does not depend on it: links that are being made look at all regions that have become dirty. */
-static void TestMaterialChangesAmidWork(void** state)
+TEST(MaterialChangesAmidWork)
 {
     for (uint32_t seed = 1; seed < 3; ++seed) {
         int32_t count, ticks;
@@ -462,18 +462,4 @@ static void TestMaterialChangesAmidWork(void** state)
             assert_true(LayoutAfterCut(seed, at, &ticks) == layout);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestIncrementalEqualsFromScratch),
-        cmocka_unit_test(TestOutlineLeavesSquares),
-        cmocka_unit_test(TestAnyBudgetEqualsNone),
-        cmocka_unit_test(TestBladeFasterThanItsBudget),
-        cmocka_unit_test(TestBudgetsThatAreNone),
-        cmocka_unit_test(TestBudgetFromTime),
-        cmocka_unit_test(TestMaterialChangesAmidWork),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -147,14 +147,14 @@ static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
     return NULL;
 }
 
-static void SeesMeshes(void** state)
+TEST(SeesMeshes)
 {
     CheckWays(CorruptMesh, KIRI_MODEL_LINKS);
     CheckWays(CorruptSquares, KIRI_MODEL_LINKS);
 }
 
 /* Edges that lie on each other and are not twins are as in a mesh that does not conform. */
-static void SeesThatTwinsAreMissing(void** state)
+TEST(SeesThatTwinsAreMissing)
 {
     Host host;
     kiriMeshData* mesh = &Start(&host, KIRI_MODEL_LINKS, 0)->mesh;
@@ -246,7 +246,7 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     return NULL;
 }
 
-static void SeesGrids(void** state)
+TEST(SeesGrids)
 {
     CheckWays(CorruptCells, KIRI_MODEL_LINKS);
     CheckWays(CorruptFaces, KIRI_MODEL_LINKS);
@@ -329,7 +329,7 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
     return NULL;
 }
 
-static void SeesFields(void** state)
+TEST(SeesFields)
 {
     CheckWays(CorruptRegions, KIRI_MODEL_LINKS);
     CheckWays(CorruptShape, KIRI_MODEL_LINKS);
@@ -448,7 +448,7 @@ static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
     return NULL;
 }
 
-static void SeesWhatIsInForce(void** state)
+TEST(SeesWhatIsInForce)
 {
     CheckWays(CorruptFrames, KIRI_MODEL_LINKS);
     CheckWays(CorruptLayout, KIRI_MODEL_LINKS);
@@ -486,13 +486,13 @@ static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
     return NULL;
 }
 
-static void SeesQueuesAndIds(void** state)
+TEST(SeesQueuesAndIds)
 {
     CheckWays(CorruptQueue, KIRI_MODEL_LINKS);
     CheckWays(CorruptIds, KIRI_MODEL_LINKS);
 }
 
-static void SeesLostBlocks(void** state)
+TEST(SeesLostBlocks)
 {
     Host host;
     kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS, 0);
@@ -520,7 +520,7 @@ static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
 
 /* While a budget interrupts the cutting of the mesh, grid->nodeCell does not know the new nodes of mesh->squares: a pin
    must not ask it. */
-static void PinsWhileTheMeshIsCut(void** state)
+TEST(PinsWhileTheMeshIsCut)
 {
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 0, 0, 0 };
@@ -537,7 +537,7 @@ static void PinsWhileTheMeshIsCut(void** state)
 }
 
 /* Nor after a tick whose work on the cut was refused memory: it goes on in the next. */
-static void PinsAfterATickWithoutMemory(void** state)
+TEST(PinsAfterATickWithoutMemory)
 {
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     int32_t frames[400];
@@ -557,7 +557,7 @@ static void PinsAfterATickWithoutMemory(void** state)
 
 /* A rigid piece with a site in each of its cells, all new: there is no room for one more, and to place them again would
    be a move, after which all is measured again, without end. A budget keeps the ticks short. */
-static void ResamplingComesToAnEnd(void** state)
+TEST(ResamplingComesToAnEnd)
 {
     const float line[4] = { 0.625f, -0.1f, 0.625f, 1.1f };
     const kiriBudget budget = { 0, 2000, 0, 0 };
@@ -577,21 +577,4 @@ static void ResamplingComesToAnEnd(void** state)
     }
     assert_int_equal(result, KIRI_OK);
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(SeesMeshes),
-        cmocka_unit_test(SeesThatTwinsAreMissing),
-        cmocka_unit_test(SeesGrids),
-        cmocka_unit_test(SeesFields),
-        cmocka_unit_test(SeesWhatIsInForce),
-        cmocka_unit_test(SeesQueuesAndIds),
-        cmocka_unit_test(SeesLostBlocks),
-        cmocka_unit_test(PinsWhileTheMeshIsCut),
-        cmocka_unit_test(PinsAfterATickWithoutMemory),
-        cmocka_unit_test(ResamplingComesToAnEnd),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

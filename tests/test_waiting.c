@@ -126,7 +126,7 @@ static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
     Host_Stop(&hosts[1]);
 }
 
-static void TestLoadedTwins(void** state)
+TEST(LoadedTwins)
 {
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 5; ++run) {
@@ -198,7 +198,7 @@ static void RunStarved(int32_t squares, int32_t from, int64_t request)
     Host_Stop(&host);
 }
 
-static void TestStarved(void** state)
+TEST(Starved)
 {
     for (int32_t from = 0; from < 40; from += 3) {
         for (int64_t request = 0; request < 120; request += request < 8 ? 1 : 13) {
@@ -208,7 +208,7 @@ static void TestStarved(void** state)
 }
 
 /* Storms, in which each tick is tried without memory first. Blades that follow sheets, contacts, tasks: all kinds. */
-static void TestStorms(void** state)
+TEST(Storms)
 {
     int32_t refused = 0;
     for (int32_t kind = 0; kind < STORM_TYPES; ++kind) {
@@ -230,14 +230,4 @@ static void TestStorms(void** state)
         Host_Stop(&host);
     }
     assert_true(refused > 200);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestLoadedTwins),
-        cmocka_unit_test(TestStarved),
-        cmocka_unit_test(TestStorms),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

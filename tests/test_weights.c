@@ -45,7 +45,7 @@ static kiriSheet AddSheet(Host* host, kiriSheetDef* def, const float* points, in
 
 /* On the straight way from site to site weights are linear; beside it nearly so. The gradient is one over the distance.
    The border between the regions lies in a cell, or between two. */
-static void LinearBetweenTwoFrames(void** state)
+TEST(LinearBetweenTwoFrames)
 {
     for (int last = 31; last <= 32; ++last) {
         const float points[4] = { 4.5f / 36, 0.125f, ((float)last + 0.5f) / 36, 0.125f };
@@ -73,7 +73,7 @@ static void LinearBetweenTwoFrames(void** state)
 
 /* Two frames face each other over a slit whose end is far. Neither reaches the other side, and around the end weights
    change little from point to point. */
-static void WeightsEndAtTheSlit(void** state)
+TEST(WeightsEndAtTheSlit)
 {
     static const float points[8] = { 0.3f, 0.15f, 0.7f, 0.15f, 0.3f, 0.7f, 0.7f, 0.7f }, slit[4] = { 0.5f, -0.1f, 0.5f, 0.8f };
     kiriFrame frames[4];
@@ -115,7 +115,7 @@ static void CutAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
 
 /* Linear weights w become w^2 (3 - 2 w), divided by their sum; so a frame's own weight is flat at the frame. Gradients are
    about the slopes of the weights, and their sum is 0. */
-static void EasedWeightsFollowLinearOnes(void** state)
+TEST(EasedWeightsFollowLinearOnes)
 {
     double apart = 0.0;
     int32_t near = 0, all = 0;
@@ -207,7 +207,7 @@ static void CheckNormals(const kiriMesh* mesh)
 
 /* Vertices are blends of the frames by the weights of their rest points. At a lip vertices have the
    weights of their own side, so those are left out. */
-static void SurfaceIsTheBlend(void** state)
+TEST(SurfaceIsTheBlend)
 {
     int32_t checked = 0, all = 0;
     for (uint32_t seed = 1; seed <= 8; ++seed) {
@@ -259,7 +259,7 @@ static void SurfaceIsTheBlend(void** state)
 /* ---- Frames ---- */
 
 /* Frames that the library spreads have about as much area each; one frame goes to the middle of its piece. */
-static void FramesAreSpread(void** state)
+TEST(FramesAreSpread)
 {
     static const int32_t counts[5] = { 1, 2, 5, 16, 47 };
     for (int k = 0; k < 5; ++k) {
@@ -280,14 +280,4 @@ static void FramesAreSpread(void** state)
         }
         Host_Stop(&host);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(LinearBetweenTwoFrames), cmocka_unit_test(WeightsEndAtTheSlit),
-        cmocka_unit_test(EasedWeightsFollowLinearOnes), cmocka_unit_test(SurfaceIsTheBlend),
-        cmocka_unit_test(FramesAreSpread),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

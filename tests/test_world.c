@@ -23,7 +23,7 @@ static double Distance(const double* a, const double* b)
 
 /* ---- Memory ---- */
 
-static void MemoryForWorld(void** state)
+TEST(MemoryForWorld)
 {
     for (int n = 0;; ++n) {
         Host host;
@@ -52,7 +52,7 @@ static uint64_t LookAt(const Host* host, kiriSheet sheet)
     return Look_Mesh(0, &mesh);
 }
 
-static void SheetsAreApart(void** state)
+TEST(SheetsAreApart)
 {
     static const float line[4] = { 0.5f, -0.1f, 0.52f, 1.1f };
     for (int order = 0; order < 6; ++order) {
@@ -90,7 +90,7 @@ static void SheetsAreApart(void** state)
 }
 
 /* The hash tells apart what the coming ticks tell apart. */
-static void HashSeesAll(void** state)
+TEST(HashSeesAll)
 {
     uint64_t hashes[9];
     int same = 0;
@@ -126,7 +126,7 @@ static void HashSeesAll(void** state)
 
 /* ---- Motion ---- */
 
-static void FreeFall(void** state)
+TEST(FreeFall)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -164,7 +164,7 @@ static void FreeFall(void** state)
     Host_Stop(&host);
 }
 
-static void AirDampingFades(void** state)
+TEST(AirDampingFades)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -181,7 +181,7 @@ static void AirDampingFades(void** state)
     Host_Stop(&host);
 }
 
-static void FramesAreHeld(void** state)
+TEST(FramesAreHeld)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -221,7 +221,7 @@ static void FramesAreHeld(void** state)
     Host_Stop(&host);
 }
 
-static void ContactsCarry(void** state)
+TEST(ContactsCarry)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -257,7 +257,7 @@ static void ContactsCarry(void** state)
 /* ---- Cuts ---- */
 
 /* The largest piece goes on, wherever the frames are. */
-static void SmallPieceComesOff(void** state)
+TEST(SmallPieceComesOff)
 {
     START_HOST(host);
     static const float corner[2] = { 0.0625f, 0.0625f }, line[4] = { 0.2f, -0.01f, -0.01f, 0.2f };
@@ -294,7 +294,7 @@ static void Above(const kiriSheetDef* def, float u, float v, float h, float* x)
     }
 }
 
-static void Slices(void** state)
+TEST(Slices)
 {
     static const float ways[4][4] = { { 0.37f, -0.3f, 0.37f, 1.3f },
                                       { -0.3f, 0.61f, 1.3f, 0.58f },
@@ -374,7 +374,7 @@ static bool InTwoParts(double u, double v)
     return (u < 0.25 || u > 0.5) && v >= 0.0;
 }
 
-static void Holes(void** state)
+TEST(Holes)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -401,7 +401,7 @@ static void Holes(void** state)
     Host_Stop(&host);
 }
 
-static void TwoParts(void** state)
+TEST(TwoParts)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
@@ -443,7 +443,7 @@ static double CountingClock(void* user)
     return 0.5 * (double)host->calls++;
 }
 
-static void Profile(void** state)
+TEST(Profile)
 {
     static const float line[8] = { 0.1f, 0.33f, 0.4f, 0.35f, 0.6f, 0.62f, 0.9f, 0.63f };
     for (int timed = 0; timed < 2; ++timed) {
@@ -498,7 +498,7 @@ static double LargestRegion(const Host* host, kiriSheet sheet, int32_t* frames)
 }
 
 /* Frames in number as the material asks for them, and more where a cut leaves long arms; never more than the cap. */
-static void FramesByThemselves(void** state)
+TEST(FramesByThemselves)
 {
     int32_t before, after;
     START_HOST(host);
@@ -532,24 +532,4 @@ static void FramesByThemselves(void** state)
     sheet = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 12, 12);
     assert_in_range(Host_Counts(&host, sheet).frames, 4, 7);
     Host_Stop(&host);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(MemoryForWorld),
-        cmocka_unit_test(SheetsAreApart),
-        cmocka_unit_test(HashSeesAll),
-        cmocka_unit_test(FreeFall),
-        cmocka_unit_test(AirDampingFades),
-        cmocka_unit_test(FramesAreHeld),
-        cmocka_unit_test(ContactsCarry),
-        cmocka_unit_test(SmallPieceComesOff),
-        cmocka_unit_test(FramesByThemselves),
-        cmocka_unit_test(Slices),
-        cmocka_unit_test(Holes),
-        cmocka_unit_test(TwoParts),
-        cmocka_unit_test(Profile),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
