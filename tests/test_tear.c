@@ -233,6 +233,55 @@ TEST(TearStopsAtACut)
     Host_Stop(&s.host);
 }
 
+/* A tear of a plate that two pins draw apart beside a notch slows down by itself, so that its surplus does not become
+   motion: work of the pins less the energy that the sheet keeps is toughness times torn section. */
+TEST(TearTakesItsEnergy)
+{
+    static const int32_t frames[] = { 32, 64, 100 };
+    for (int k = 0; k < 3; ++k) {
+        START_HOST(host);
+        const float none[3] = { 0.0f, 0.0f, 0.0f };
+        kiriSheetDef def = DefaultSheet();
+        kiriTearing tearing = TearingOf(100.0);
+        kiriTotals totals;
+        kiriSheet sheet;
+        kiriPin pins[2];
+        double tip[2] = { 0.0, 0.0 }, work = 0.0, lost = 0.0, first = 0.0, force[3], torque[3];
+        OK(kiriWorld_SetGravity(host.world, none));
+        TakeMaterial(&def.material, 2e7, 0.0f);
+        def.gridResolution = 64;
+        def.frameCount = frames[k];
+        def.planar = 1;
+        def.sleepSpeed = 0.0f;
+        OK(kiriCreateRectangle(host.world, 0.1f, 0.1f, 32, 32, &def, &sheet));
+        OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
+        CutLine(&host, sheet, -0.01f, 0.05f, 0.04f, 0.05f);
+        for (int side = 0; side < 2; ++side) {
+            kiriPinDef pin = Host_PinDef(0.004f, side == 0 ? 0.02f : 0.08f, 0.0f, 0.0f, 0.0f);
+            memcpy(pin.target, pin.restPoint, sizeof(pin.restPoint));
+            pin.stiffness = 2e4f;
+            OK(kiriCreatePin(host.world, sheet, &pin, &pins[side]));
+        }
+        for (int32_t t = 1; t < 600 && tip[0] < 0.07; ++t) {
+            const float at[3] = { 0.004f, 0.08f + 1e-5f * (float)t, 0.0f };
+            OK(kiriPin_SetTarget(host.world, pins[1], at));
+            assert_true(kiriWorld_Tick(host.world, Dt, 2) >= 0);
+            OK(kiriPin_GetReaction(host.world, pins[1], force, torque));
+            OK(kiriSheet_GetTotals(host.world, sheet, &totals));
+            work += 1e-5 * force[1];
+            FarthestLip(&host, sheet, 1.0, 0.0, tip);
+            if (first == 0.0 && tip[0] > 0.045) {
+                first = tip[0];
+                lost = work - totals.elasticEnergy - totals.kineticEnergy;
+            }
+        }
+        lost = work - totals.elasticEnergy - totals.kineticEnergy - lost;
+        assert_true(tip[0] >= 0.07 && first < 0.05);
+        assert_true(fabs(lost / (100.0 * Thickness * (tip[0] - first)) - 1.0) < 0.15);
+        Host_Stop(&host);
+    }
+}
+
 /* ---- Trousers ---------------------------------------------------------------------------------------------------- */
 
 /* A sheet .12 x .06 m with a cut of .05 m along its middle. Three springs hold the end of each leg; they turn the legs up and
