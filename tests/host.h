@@ -125,9 +125,10 @@ static inline void Host_Start(Host* host)
     assert_int_equal(kiriCreateWorld(&def, &host->world), KIRI_OK);
 }
 
-/* Declares a host, and starts it. */
+/* Declares a host, which stops at the end of its scope; and starts it. */
+#define HOST(name) __attribute__((cleanup(Host_Stop))) Host name = { .world = NULL }
 #define START_HOST(name)                                                                                               \
-    Host name;                                                                                                         \
+    HOST(name);                                                                                                        \
     Host_Start(&name)
 
 /* Fails the test where anything in the world contradicts itself. */
@@ -161,13 +162,16 @@ static inline void Host_Ticks(Host* host, int32_t count, float dt, int32_t subst
 static inline void Host_Destroy(Host* host)
 {
     kiriDestroyWorld(host->world);
+    host->world = NULL;
     assert_int_equal(host->live, 0);
 }
 
 static inline void Host_Stop(Host* host)
 {
-    Host_Validate(host);
-    Host_Destroy(host);
+    if (host->world != NULL) {
+        Host_Validate(host);
+        Host_Destroy(host);
+    }
 }
 
 static inline uint64_t Host_Hash(const Host* host)

@@ -239,7 +239,6 @@ TEST(ModesOfFloats)
     }
 #endif
     START_HOST(host);
-    Host_Stop(&host);
 }
 
 /* Every preset makes a sheet; other numbers make none. */
@@ -255,7 +254,6 @@ TEST(Materials)
     assert_int_equal(kiriGetMaterial(-1, &material), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetMaterial(KIRI_MATERIAL_COUNT, &material), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetMaterial(0, NULL), KIRI_ERROR_ARGUMENT);
-    Host_Stop(&host);
 }
 
 /* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth:
@@ -280,7 +278,6 @@ TEST(Qualities)
     assert_int_equal(kiriGetQuality(KIRI_QUALITY_COUNT, &refused), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetQuality(KIRI_QUALITY_FAST, NULL), KIRI_ERROR_ARGUMENT);
     assert_int_equal(refused.framesAlong, 7);
-    Host_Stop(&host);
 }
 
 TEST(WorldDefs)
@@ -928,7 +925,6 @@ TEST(ShortIndicesNeedFewVertices)
     assert_int_equal(kiriSheet_CopyIndices16(host.world, many, 0, 1, indices), KIRI_ERROR_STATE);
     kiriSheet few = Host_AddRectangle(&host, &def, 1.0f, 1.0f, SIDE - 2, SIDE - 1);
     OK(kiriSheet_CopyIndices16(host.world, few, 0, 1, indices));
-    Host_Stop(&host);
 }
 
 TEST(ContactArguments)

@@ -92,7 +92,6 @@ TEST(Rays)
                 hits += CheckRay(&host, sheet, origin, way);
             }
         }
-        Host_Stop(&host);
     }
     assert_true(hits > rays / 4 && hits < rays);
 }
@@ -132,7 +131,6 @@ TEST(WhoAsks)
         OK(Host_Tick(&host, 0.01f, 1));
     }
     assert_int_equal(host.live, live);
-    Host_Stop(&host);
 }
 
 /* The sheet that a ray meets first, of three above each other, with and without boxes. */
@@ -166,5 +164,4 @@ TEST(AllSheets)
         assert_int_equal(met, 0);
         OK(Host_Tick(&host, 0.01f, 1));
     }
-    Host_Stop(&host);
 }

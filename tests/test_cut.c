@@ -171,7 +171,6 @@ static void CheckCase(const Case* c, bool isParted)
         fail_msg("%s: %d pieces, %d vertices, %d triangles, %d of them at the place", c->name, (int)counts.pieces,
                  (int)counts.vertices, (int)counts.triangles, (int)VerticesAt(&mesh, c->place));
     }
-    Host_Stop(&host);
 }
 
 TEST(HandMadeCases)
@@ -206,7 +205,6 @@ TEST(TouchesSharpCorners)
         OK(AddLoose(&host, triangles[up], 1, 0.0, &sheet));
         CutLine(&host, sheet, line, 2);
         assert_int_equal(Host_Counts(&host, sheet).triangles, 1);
-        Host_Stop(&host);
     }
 }
 
@@ -230,7 +228,6 @@ TEST(CutsThroughSplitSides)
         kiriMesh mesh = Host_Mesh(&host, sheet);
         assert_int_equal(VerticesAt(&mesh, (float[]){ 1, 1 }), 4);
         assert_int_equal(Host_Counts(&host, sheet).pieces, 4);
-        Host_Stop(&host);
     }
 }
 
@@ -267,7 +264,6 @@ TEST(MakesNoEdgeTwice)
             }
             ++made;
         }
-        Host_Stop(&host);
     }
     assert_in_range(made, 50, 600);
 }
@@ -291,7 +287,6 @@ TEST(PullsNoOutlineAlong)
         kiriResult result = Host_Tick(&host, 1e-3f, 1);
         assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
     }
-    Host_Stop(&host);
 }
 
 /* ---- Random cuts ---- */
@@ -429,7 +424,6 @@ TEST(LipsFollowTheBlade)
             CheckLipsMeet(&host, sheet, 16.0f);
         }
         assert_true(fabs(Host_Totals(&host, sheet).area - 256.0) < 1e-9);
-        Host_Stop(&host);
     }
 }
 
@@ -453,7 +447,6 @@ TEST(DoesNotDrift)
     }
     assert_true(inside > 500);
     free(edges);
-    Host_Stop(&host);
 }
 
 /* Writes a spiral, or a line that strays, within `radius` of a place. */
@@ -483,9 +476,8 @@ TEST(KnotsEnd)
     for (int32_t i = 0; i < 8; ++i) {
         bool isSpiral = i < 6;
         int32_t count = isSpiral ? MOST >> i % 3 : MOST >> 2, most = (isSpiral ? 60 : 200) * count, items = 0;
-        Host host;
         kiriSheetDef def = DefOf(64, 0.0);
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 1000;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 32, 32);
         OK(kiriWorld_SetBudget(host.world, &budget));
@@ -498,6 +490,5 @@ TEST(KnotsEnd)
         }
         assert_true(items <= most);
         assert_true(Host_Counts(&host, sheet).vertices <= 2000 + (isSpiral ? 6 : 20) * count);
-        Host_Stop(&host);
     }
 }

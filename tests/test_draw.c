@@ -319,7 +319,6 @@ TEST(Shapes)
         }
     }
     Canvas_Free(&canvas);
-    Host_Stop(&host);
 }
 
 TEST(OfOneSheet)

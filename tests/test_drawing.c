@@ -505,8 +505,7 @@ TEST(Pieces)
                 y, x + 7.5, y + 7.5);
     }
     ReadAndJoin(strcat(text, "</svg>"));
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def;
     kiriSheet sheet;
     kiriDefaultSheetDef(&def);
@@ -522,7 +521,6 @@ TEST(Pieces)
     }
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2 * SIDE * SIDE + 1);
-    Host_Stop(&host);
 }
 
 static void ReadFile(FILE* file)
@@ -541,9 +539,8 @@ TEST(Export)
     static const float slit[] = { 0.02f, 0.085f, 0.05f, 0.08f, 0.08f, 0.085f };
     static const float square[] = { 0.0213f, 0.0213f, 0.0613f, 0.0213f, 0.0613f,
                                     0.0613f, 0.0213f, 0.0613f, 0.0213f, 0.0213f };
-    Host host;
     kiriSheet sheets[2];
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriCreateRectangle(host.world, 0.1f, 0.1f, 20, 20, NULL, &sheets[0]));
     Host_Cut(&host, sheets[0], slit, 3);
     Host_Cut(&host, sheets[0], square, 5);
@@ -569,7 +566,6 @@ TEST(Export)
     Import_Free(&drawing);
     assert_false(Export_Take(host.world, &gone, 1, &drawing));
     assert_non_null(strstr(drawing.error, "gone"));
-    Host_Stop(&host);
 }
 
 /* Damaged files give lines or one error line, and finite points. */

@@ -135,7 +135,7 @@ static double Drop(const Sheet* s, int32_t count)
 {
     double sum = 0.0;
     int32_t found = 0;
-    Host host;
+    HOST(host);
     kiriSheet sheet = Make(&host, s, count, 0.0f);
     Settle(&host, sheet, s);
     kiriMesh mesh = World_Mesh(host.world, sheet);
@@ -145,7 +145,6 @@ static double Drop(const Sheet* s, int32_t count)
             ++found;
         }
     }
-    Host_Stop(&host);
     return sum / found;
 }
 
@@ -187,7 +186,7 @@ TEST(LigamentsStretchAsTheyShould)
         s.cutCount = 3;
         s.cutPoints[0] = s.cutPoints[1] = s.cutPoints[2] = 2;
         s.planar = 1;
-        Host host;
+        HOST(host);
         kiriSheet sheet = Make(&host, &s, counts[k / 2], 0.0f);
         kiriPin clamp = Clamp(&host, sheet, &s, s.length);
         OK(kiriPin_SetTarget(host.world, clamp, pulled));
@@ -201,7 +200,6 @@ TEST(LigamentsStretchAsTheyShould)
         double stiffness = force[0] / ((double)pulled[0] - (double)s.length) / 6.95e3;
         print_message("%d frames: %.2f of the reference\n", counts[k / 2], stiffness);
         assert_true(stiffness > 0.85 && stiffness < 1.15);
-        Host_Stop(&host);
     }
 }
 
@@ -253,13 +251,12 @@ typedef struct Outcome {
 static Outcome Try(const Sheet* s, const Reference* reference, int32_t count, float accuracy)
 {
     Outcome o;
-    Host host;
+    HOST(host);
     kiriSheet sheet = Make(&host, s, count, accuracy);
     Settle(&host, sheet, s);
     o.error = ErrorOf(&host, sheet, s, reference);
     OK(kiriSheet_EstimateError(host.world, sheet, &o.estimate));
     o.frames = Host_Counts(&host, sheet).frames;
-    Host_Stop(&host);
     return o;
 }
 
@@ -362,7 +359,7 @@ TEST(EstimateAtTheEnds)
 {
     for (int32_t frames = 1; frames < 4; ++frames) {
         double estimate = -1.0;
-        Host host;
+        HOST(host);
         StartHost(&host);
         kiriSheetDef def = DefaultSheet();
         def.frameCount = def.maxFrames = frames;
@@ -372,14 +369,13 @@ TEST(EstimateAtTheEnds)
         def.model = KIRI_MODEL_AFFINE;
         sheet = Host_AddRectangle(&host, &def, 1.0f, 0.3f, 10, 3);
         assert_int_equal(kiriSheet_EstimateError(host.world, sheet, &estimate), KIRI_ERROR_STATE);
-        Host_Stop(&host);
     }
 }
 
 TEST(EstimateNeedsLittle)
 {
     double estimate = -1.0;
-    Host host;
+    HOST(host);
     StartHost(&host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -393,7 +389,6 @@ TEST(EstimateNeedsLittle)
     assert_int_equal(kiriSheet_EstimateError(host.world, sheet, &estimate), KIRI_ERROR_MEMORY);
     host.failAt = -1;
     assert_int_equal(host.live, live);
-    Host_Stop(&host);
 }
 
 /* ---- Accuracy ---- */
@@ -436,7 +431,7 @@ TEST(AccuracyHasLimits)
         { 1.0f, 1e-4f, 100, 150 },
     };
     for (int k = 0; k < 4; ++k) {
-        Host host;
+        HOST(host);
         StartHost(&host);
         kiriSheetDef def = DefaultSheet();
         def.frameCount = 0;
@@ -445,6 +440,5 @@ TEST(AccuracyHasLimits)
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
         int32_t frames = Host_Counts(&host, sheet).frames;
         assert_in_range(frames, cases[k].least, cases[k].most);
-        Host_Stop(&host);
     }
 }

@@ -162,7 +162,6 @@ TEST(ForcesUpTo)
         }
     }
     assert_true(diverged > 0 && diverged < 20);
-    Host_Stop(&host);
 }
 
 /* A ball that spins rubs the sheet along. Frames that may stretch are torn; a smooth surface takes squares of that. */
@@ -189,7 +188,6 @@ TEST(SpinsUpTo)
             State now = Read(&host, sheet);
             assert_true(AllFinite(now.positions, 3 * now.vertexCount) && AllFinite(now.normals, 3 * now.vertexCount));
         }
-        Host_Stop(&host);
     }
     assert_in_range(diverged, 1, 150);
 }
@@ -210,7 +208,6 @@ TEST(HeldOutOfReach)
     OK(kiriFrame_Hold(host.world, FirstFrame(&host, sheet), NULL, NULL));
     OK(Host_Tick(&host, 1.0f / 60.0f, 1));
     assert_true(Host_Totals(&host, sheet).momentum[2] < 0.0);
-    Host_Stop(&host);
 }
 
 /* ---- Far from the origin ----------------------------------------------------------------------------------------- */
@@ -229,5 +226,4 @@ TEST(NormalsFarAway)
     for (int32_t v = 0; v < mesh.vertexCount; ++v) {
         assert_true(fabs(mesh.normals[3 * v] + 0.8) < 1e-5 && fabs(mesh.normals[3 * v + 2] - 0.6) < 1e-5);
     }
-    Host_Stop(&host);
 }

@@ -117,7 +117,6 @@ static void RunNet(uint32_t run)
     } else {
         assert_true(result == KIRI_ERROR_ARGUMENT || result == KIRI_ERROR_MESH);
     }
-    Host_Stop(&host);
 }
 
 TEST(Nets)

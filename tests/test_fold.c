@@ -71,8 +71,7 @@ static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t column
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, (float)k, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     def.gridResolution = grid;
     def.frameCount = frames;
@@ -87,7 +86,6 @@ static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t column
         (k * middle < 0.5 * weight * b * b * cos(middle) ? (low = middle) : (high = middle));
     }
     CheckLips(&host, sheet);
-    Host_Stop(&host);
     return angle / low - 1.0;
 }
 
@@ -111,8 +109,7 @@ static double SagOf(float stiffness, float lean, int32_t frames)
     kiriSheetDef def = StiffDef();
     kiriPin pin;
     kiriPointState end;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 100;
     def.frameCount = frames;
     def.gridResolution = 48;
@@ -124,7 +121,6 @@ static double SagOf(float stiffness, float lean, int32_t frames)
     OK(kiriSheet_ClampLine(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.05f }, &pin));
     Host_Ticks(&host, 300, Dt, 2);
     OK(kiriSheet_GetPoint(host.world, sheet, (const float[]){ 0.1f, 0.025f }, &end));
-    Host_Stop(&host);
     return -(double)end.position[2];
 }
 
@@ -146,8 +142,7 @@ TEST(SeenSurfaceIsTwoPlanes)
 {
     const kiriFold fold = { { 0.03f, 0.0f }, { 0.06f, 0.05f }, 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     def.frameCount = 2;
     def.gridResolution = 40;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 17, 9, &fold, 1);
@@ -177,7 +172,6 @@ TEST(SeenSurfaceIsTwoPlanes)
     }
     print_message("off the planes by %.2g m, turned by %.3f rad\n", worst[0], StateOf(&host, sheet, 0).angle);
     assert_true(worst[0] < 1e-6 && worst[1] > 0.02); /* 1e-5 of the size */
-    Host_Stop(&host);
 }
 
 /* A cut along a fold parts the sheet; one across it leaves one piece on each side, whose folds go on. */
@@ -187,8 +181,7 @@ TEST(CutsGoThroughFolds)
                                 { { 0.02f, 0.0f }, { 0.02f, 0.03f }, 1e-4f, 0.0f, 0.0f } };
     const float across[4] = { -0.1f, 0.02f, 0.2f, 0.03f }, along[4] = { 0.05f, -0.01f, 0.05f, 0.06f };
     kiriSheetDef def = StiffDef();
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     def.frameCount = 8;
     kiriSheet part, sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, folds, 2);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
@@ -210,7 +203,6 @@ TEST(CutsGoThroughFolds)
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
     assert_int_equal(Host_Counts(&host, part).pieces, 2);
     assert_true(StateOf(&host, sheet, 0).length == 0.0 && StateOf(&host, sheet, 0).angle == 0.0);
-    Host_Stop(&host);
 }
 
 /* Blades in world space go through folds. */
@@ -222,8 +214,7 @@ TEST(BladesGoThroughFolds)
     kiriSheetDef def = StiffDef();
     kiriCut cut;
     kiriBlade blade;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, none));
     def.material.airDamping = 20.0f;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
@@ -240,7 +231,6 @@ TEST(BladesGoThroughFolds)
     OK(kiriBlade_End(host.world, blade));
     Host_Ticks(&host, 2, Dt, 2);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
-    Host_Stop(&host);
 }
 
 /* Cloth with a detail layer: both sides of the drawn mesh stay together. */
@@ -249,8 +239,7 @@ TEST(ClothFolds)
     const kiriFold fold = { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 1e-4f, 2.0f, 0.0f };
     kiriSheetDef def;
     kiriPin pin;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     kiriDefaultSheetDef(&def);
     def.frameCount = 16;
@@ -260,7 +249,6 @@ TEST(ClothFolds)
         OK(Host_Tick(&host, Dt, 2));
         CheckLips(&host, sheet);
     }
-    Host_Stop(&host);
 }
 
 /* A fold goes to its rest angle, also beyond a right angle and in the air, and turns nothing as a whole. */
@@ -269,8 +257,7 @@ TEST(FoldsGoToTheirRestAngle)
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     const float none[3] = { 0.0f, 0.0f, 0.0f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     def.material.airDamping = 30.0f;
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
@@ -288,7 +275,6 @@ TEST(FoldsGoToTheirRestAngle)
     }
     assert_int_equal(kiriSheet_SetFold(host.world, sheet, 1, 0.0f, 0.0f), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_SetFold(host.world, sheet, 0, 0.0f, 3.2f), KIRI_ERROR_ARGUMENT);
-    Host_Stop(&host);
 }
 
 /* Bent by a right angle and let go, a fold with a yield moment springs back by that moment over its stiffness; one
@@ -300,8 +286,7 @@ static double LetGo(float yieldMoment)
     kiriSheetDef def = StiffDef();
     kiriFrame frames[2];
     int32_t count;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, none));
     def.material.yieldStress = 1e8f;
     def.material.airDamping = 30.0f;
@@ -328,7 +313,6 @@ static double LetGo(float yieldMoment)
         OK(Host_Tick(&host, Dt, 2));
     }
     double angle = StateOf(&host, sheet, 0).angle;
-    Host_Stop(&host);
     return angle;
 }
 
@@ -340,8 +324,7 @@ TEST(FoldsAreAddedLater)
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     int32_t index, ticks = 0;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, none));
     OK(kiriWorld_SetBudget(host.world, &budget));
     def.fadeTime = 0.2f;
@@ -365,7 +348,6 @@ TEST(FoldsAreAddedLater)
     far.from[0] = far.to[0] = 1e6f;
     assert_int_equal(kiriSheet_AddFold(host.world, sheet, &far, &index), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_GetFold(host.world, sheet, 1, NULL), KIRI_ERROR_ARGUMENT);
-    Host_Stop(&host);
 }
 
 TEST(FoldsKeepAnAngle)
@@ -424,8 +406,7 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     double worst = 0.0;
     Miura m;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     OK(kiriWorld_SetGravity(host.world, none));
     Miura_Make(&m, columns, rows, 0.1, 0.1, acute);
@@ -453,7 +434,6 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
             worst = fmax(worst, fabs(is - want) / Degree);
         }
     }
-    Host_Stop(&host);
     return worst;
 }
 
@@ -477,8 +457,7 @@ TEST(WaterbombFolds)
     kiriFold folds[MOST];
     float ways[MOST];
     Import drawing = { 0 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     OK(kiriWorld_SetGravity(host.world, none));
     assert_true(Import_Read(&drawing, file, (int64_t)strlen(file), 0.01) && Import_Join(&drawing, 0.01));
@@ -507,7 +486,6 @@ TEST(WaterbombFolds)
     }
     print_message("folded to %.4f x %.4f x %.1g m\n", most, all - most - least, least);
     assert_true(fabs(most - 0.1) < 1e-4 && fabs(all - most - least - 0.05) < 1e-4 && least < 1e-4);
-    Host_Stop(&host);
 }
 
 /* ---- Random sheets ---- */
@@ -542,9 +520,8 @@ static void TakePieces(Host* host)
 /* A twin that was saved and loaded, or restored, goes on in the same way. */
 static void CheckTwin(Host* host, bool isSnapshot)
 {
-    Host twin;
     int64_t size = 0, written;
-    Host_Start(&twin);
+    START_HOST(twin);
     OK(kiriWorld_FinishCuts(host->world));
     OK(isSnapshot ? kiriWorld_Snapshot(host->world, NULL, 0, &size) : kiriWorld_Save(host->world, NULL, 0, &size));
     void* bytes = malloc((size_t)size);
@@ -562,7 +539,6 @@ static void CheckTwin(Host* host, bool isSnapshot)
         assert_true(Layout_HashAll(host->world) == Layout_HashAll(twin.world));
     }
     free(bytes);
-    Host_Stop(&twin);
 }
 
 static void CutBothWays(uint32_t seed)
@@ -639,8 +615,7 @@ static bool SetInTick(int32_t when)
     const kiriBudget budget = { 16, 400, 100, 0 };
     kiriFold folds[FOLDS];
     kiriSheetDef def = StiffDef();
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     for (int f = 0; f < FOLDS; ++f) {
         float u = 0.1f * (float)(f + 1) / (FOLDS + 1);
@@ -664,7 +639,6 @@ static bool SetInTick(int32_t when)
     for (int f = 0; f < FOLDS && tick > when; ++f) {
         assert_true(fabs(StateOf(&host, sheet, f).angle - 0.3) < 0.03);
     }
-    Host_Stop(&host);
     return tick <= when;
 }
 
@@ -689,6 +663,5 @@ TEST(SmallSnapsJoinFolds)
         def.snapDistance = snaps[k];
         kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 16, 16, &fold, 1);
         assert_true(fabs(StateOf(&host, sheet, 0).length - 1.172) < 0.01);
-        Host_Stop(&host);
     }
 }

@@ -53,7 +53,6 @@ TEST(SettingsAreADefs)
             assert_true(Host_Tick(&host, DT, 2) >= 0);
         }
         hash[way] = Host_Hash(&host);
-        Host_Stop(&host);
     }
     assert_true(hash[0] == hash[1]);
 }
@@ -84,7 +83,6 @@ TEST(SettingsChangeWhileItMoves)
     const float more[4] = { 0.5f, -0.1f, 0.55f, 0.4f };
     Host_Cut(&host, sheet, more, 2);
     OK(Host_Tick(&host, DT, 2));
-    Host_Stop(&host);
 }
 
 /* Another look is seen to come little by little, from the tick on in which both are asked for. */
@@ -107,7 +105,6 @@ TEST(FadesMayBeginWithAnotherLook)
         OK(Host_Tick(&host, DT, 2));
         kiriProfile profile = World_Profile(host.world);
         assert_true(profile.largestJump > 0.0 && profile.largestFade > 0.0);
-        Host_Stop(&host);
     }
 }
 
@@ -138,7 +135,6 @@ TEST(SettingsAreChecked)
     REFUSED_SETTING(timeStepping, 2, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(fadeTime, -1.0f, KIRI_ERROR_ARGUMENT);
     REFUSED_SETTING(normals, 2, KIRI_ERROR_ARGUMENT);
-    Host_Stop(&host);
 }
 
 /* ---- Points and impulses ----------------------------------------------------------------------------------------- */
@@ -201,7 +197,6 @@ TEST(PointIsWhatIsSeen)
         }
         /* The normal that a smooth patch leaves by turns a little beside its weights. */
         assert_true(size > 0.01 && way < (skinning == 0 ? 1e-3 : 0.05) * size);
-        Host_Stop(&host);
     }
 }
 
@@ -240,7 +235,6 @@ TEST(PointHasANormal)
         assert_true(point.normal[0] == 0.0f && point.normal[1] == 0.0f && point.normal[2] == 1.0f);
         Host_Mesh(&host, sheet);
     }
-    Host_Stop(&host);
 }
 
 TEST(PointNamesItsPiece)
@@ -261,7 +255,6 @@ TEST(PointNamesItsPiece)
     assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, &point), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, NULL), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_GetPoint(host.world, 77, outside, &point), KIRI_ERROR_ID);
-    Host_Stop(&host);
 }
 
 /* Of models and skinnings, with fades on the way. */
@@ -292,7 +285,6 @@ TEST(ImpulseIsMomentum)
         assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, outside, impulse), KIRI_ERROR_ARGUMENT);
         assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, at, NULL), KIRI_ERROR_ARGUMENT);
         OK(Host_Tick(&host, DT, 2));
-        Host_Stop(&host);
     }
 }
 
@@ -309,7 +301,6 @@ TEST(ImpulseInPlane)
     assert_true(fabs(totals.momentum[0] - 0.01) < 1e-9 && fabs(totals.momentum[1] + 0.02) < 1e-9);
     assert_true(totals.momentum[2] == 0.0);
     assert_true(fabs(totals.angularMomentum[2] - (0.9 * -0.02 - 0.2 * 0.01)) < 1e-8);
-    Host_Stop(&host);
 }
 
 /* ---- Wind -------------------------------------------------------------------------------------------------------- */
@@ -342,7 +333,6 @@ TEST(TerminalVelocity)
         double law = sqrt(totals.mass * 9.81 / (0.5 * 1.2 * 1.2 * totals.area));
         assert_true(fabs(-totals.momentum[2] / totals.mass / law - 1.0) < 0.001);
         assert_true(totals.angularMomentum[0] * 0.0 == 0.0);
-        Host_Stop(&host);
     }
 }
 
@@ -368,7 +358,6 @@ TEST(WindIsNotOvertaken)
             assert_true(speed > (i < 10 ? 100.0 : 199.0) && speed < 200.0);
             assert_true(totals.kineticEnergy < 0.5001 * totals.mass * 200.0 * 200.0);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -386,7 +375,6 @@ TEST(WindIsChecked)
     }
     assert_int_equal(kiriSheet_SetWind(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
     assert_true(Host_Hash(&host) == hash);
-    Host_Stop(&host);
 }
 
 /* ---- Pins -------------------------------------------------------------------------------------------------------- */
@@ -452,7 +440,6 @@ TEST(PinsBreak)
     assert_int_equal(Host_Events(&host, KIRI_EVENT_PIN_BROKE, &event), 1);
     OK(Host_Tick(&host, DT, 2));
     assert_int_equal(Host_Events(&host, KIRI_EVENT_PIN_BROKE, &event), 0);
-    Host_Stop(&host);
 }
 
 /* A sheet that is drawn along by a corner, without gravity: what more substeps find must not differ by much. Returns
@@ -474,7 +461,6 @@ static double Draw(int32_t substeps)
         OK(Host_Tick(&host, DT, substeps));
         squares += i >= 120 ? ForceOn(&host, pin) * ForceOn(&host, pin) / 120.0 : 0.0;
     }
-    Host_Stop(&host);
     return sqrt(squares);
 }
 
@@ -503,7 +489,6 @@ TEST(HeldFrameMovesEvenly)
         OK(kiriFrame_GetState(host.world, frames[0], &frame));
         assert_true(Apart(frame.position, position) < 1e-6 && fabs(frame.velocity[0] - 0.6) < 1e-4);
     }
-    Host_Stop(&host);
 }
 
 /* Hung up with a smooth surface: what is seen is where it is held, and it falls asleep. */
@@ -549,7 +534,6 @@ TEST(SeenIsHeld)
                       : kind == 1 ? "its clamp"
                                   : "its hold");
         assert_true(off < (kind == 1 ? 1e-3 : 1e-4));
-        Host_Stop(&host);
     }
 }
 
@@ -592,7 +576,6 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
         const float at[3] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), 0.0f };
         strip->off = fmax(strip->off, Apart(PointAt(&host, sheet, at[0], at[1]).position, at));
     }
-    Host_Stop(&host);
 }
 
 /* The most that the shapes differ by: how far any frame is from where the first one, moved by what it is off, has
@@ -657,7 +640,6 @@ static kiriPointState HangHalf(float push)
         OK(kiriSheet_ApplyForce(host.world, sheet, pushed, force, none));
     }
     kiriPointState tip = PointAt(&host, sheet, 0.2f, 0.02f);
-    Host_Stop(&host);
     return tip;
 }
 
@@ -722,7 +704,6 @@ TEST(PinGoesWithObstacle)
     kiriDefaultPinDef(&bad);
     bad.obstacle = obstacle;
     assert_int_equal(kiriCreatePin(host.world, sheet, &bad, &other), KIRI_ERROR_ID);
-    Host_Stop(&host);
 }
 
 /* A body of the host hangs at a sheet by a pin, without gravity, and is thrown: together they keep their momentum, and
@@ -762,7 +743,6 @@ TEST(BodyAtPinKeepsMomentum)
                       decade, worst, 1e3 * apart, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
         assert_true(worst < 0.01 && apart < 0.03);
         assert_true(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1.3);
-        Host_Stop(&host);
     }
 }
 
@@ -800,7 +780,6 @@ TEST(TransformMovesAll)
             }
             OK(Host_Tick(&host, DT, 2));
         }
-        Host_Stop(&host);
     }
 }
 
@@ -824,7 +803,6 @@ TEST(TransformIsChecked)
     assert_int_equal(kiriSheet_Transform(host.world, sheet, none, away), KIRI_ERROR_MEMORY);
     host.failAt = -1;
     assert_true(Host_Hash(&host) == hash);
-    Host_Stop(&host);
 }
 
 TEST(VelocityIsRigid)
@@ -858,7 +836,6 @@ TEST(VelocityIsRigid)
         assert_true(piece.momentum[0] == 0.0);
         OK(kiriSheet_GetPiece(host.world, sheet, 1, &piece));
         assert_true(fabs(piece.momentum[0] - piece.mass) < 1e-12);
-        Host_Stop(&host);
     }
 }
 
@@ -901,7 +878,6 @@ TEST(UserDataStays)
     assert_true(data == UINT64_MAX);
     assert_int_equal(kiriSheet_GetUserData(host.world, 99, &data), KIRI_ERROR_ID);
     assert_int_equal(kiriPin_GetUserData(host.world, pin, NULL), KIRI_ERROR_ARGUMENT);
-    Host_Stop(&host);
 }
 
 /* ---- Solids ------------------------------------------------------------------------------------------------------ */
@@ -1015,7 +991,6 @@ TEST(SolidIsClosed)
     assert_int_equal(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid), KIRI_ERROR_MEMORY);
     host.failAt = -1;
     assert_true(host.live == live);
-    Host_Stop(&host);
 }
 
 /* ---- Axes -------------------------------------------------------------------------------------------------------- */

@@ -206,7 +206,6 @@ TEST(ClosesSeams)
         CheckCounts(&host, sheet, 13 * 13, 288);
         CheckUvs(&host, sheet, &A, 2e-6 + 2.0 * shake);
         CutAndCheckUvs(&host, sheet, &A, 2e-6 + 2.0 * shake);
-        Host_Stop(&host);
     }
 }
 
@@ -238,7 +237,6 @@ TEST(ClosesRings)
     OK(Host_Tick(&host, 0.01f, 1));
     CheckUvs(&host, sheet, &B, 3e-6);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
-    Host_Stop(&host);
 }
 
 /* ---- Any mesh ---- */
@@ -335,7 +333,6 @@ TEST(WeldsShakenSoups)
         assert_int_equal(counts.vertices, welded.vertices);
         assert_int_equal(counts.triangles, welded.triangles);
         assert_int_equal(counts.pieces, welded.pieces);
-        Host_Stop(&host);
     }
 }
 
@@ -373,7 +370,6 @@ TEST(WeldsWhatIsNear)
         kiriCounts counts = Host_Counts(&host, Add(&host, &A, 0.01f));
         assert_int_equal(counts.pieces, rows[k].pieces);
         assert_int_equal(counts.vertices, 6 + 2 * rows[k].pieces);
-        Host_Stop(&host);
     }
 }
 
@@ -413,7 +409,6 @@ TEST(LeavesOutSlivers)
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part));
     CheckUvs(&host, sheet, &A, 1e-3);
     CheckUvs(&host, part, &A, 1e-3);
-    Host_Stop(&host);
 }
 
 /* They change nothing, wherever they lie. */
@@ -507,7 +502,6 @@ TEST(NamesTheTriangle)
         assert_int_equal(sscanf(host.line, "kiriCreateSheet: triangles %d and %d overlap", &first, &second), 2);
         assert_true(first < second && second == B.triangles - 1);
     }
-    Host_Stop(&host);
 }
 
 TEST(NamesWhatWeldingDoes)
@@ -542,7 +536,6 @@ TEST(NamesWhatWeldingDoes)
     A.indices[4] = 3;
     A.rest[8] = NAN;
     Refuse(&host, &A, 0.0f, KIRI_ERROR_ARGUMENT, "vertex 4 is not finite");
-    Host_Stop(&host);
 }
 
 /* A line names the call that the host made. */
@@ -576,5 +569,4 @@ TEST(RectanglesSpeakForThemselves)
         CheckLine(&host, "kiriCreateRectangle", "memory");
     }
     host.failAt = -1;
-    Host_Stop(&host);
 }

@@ -125,7 +125,7 @@ typedef struct Outcome {
 
 static Outcome DrawAtRandom(uint32_t run, const kiriBudget* budget)
 {
-    Host host;
+    HOST(host);
     Pen pens[PENS];
     Outcome outcome = { .commits = 0 };
     kiriSheetDef def = DefOf(run);
@@ -150,7 +150,6 @@ static Outcome DrawAtRandom(uint32_t run, const kiriBudget* budget)
     Settle(&host, &outcome.commits);
     outcome.layout = Layout_HashAll(host.world);
     outcome.counts = Host_Counts(&host, sheet);
-    Host_Stop(&host);
     return outcome;
 }
 
@@ -184,7 +183,7 @@ TEST(SameInTheEnd)
    pieces. */
 static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bladeTicks)
 {
-    Host host;
+    HOST(host);
     kiriCut cut;
     int32_t ticks = 0;
     kiriSheetDef def = DefaultSheet();
@@ -207,7 +206,6 @@ static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bl
         TickOn(&host);
         assert_in_range(++ticks, 1, MOST_TICKS);
     }
-    Host_Stop(&host);
     return ticks;
 }
 
@@ -249,7 +247,7 @@ static kiriSheet AddFine(Host* host, int32_t squares)
 
 static int32_t TicksOfShort(const kiriBudget* budget, bool isOtherCut)
 {
-    Host host;
+    HOST(host);
     StartStill(&host, budget);
     host.every = 50;
     kiriSheet large = AddFine(&host, 60), small = AddFine(&host, 12);
@@ -261,7 +259,6 @@ static int32_t TicksOfShort(const kiriBudget* budget, bool isOtherCut)
     Host_Cut(&host, small, (const float[]){ -0.1f, 0.41f, 1.1f, 0.47f }, 2);
     int32_t ticks = TicksToCommit(&host, small, large, 0);
     assert_true(!isOtherCut || Host_Counts(&host, large).pieces == 1); /* it takes longer */
-    Host_Stop(&host);
     return ticks;
 }
 
@@ -279,13 +276,12 @@ TEST(LongCutComesToItsEnd)
     static const kiriBudget budget = { 0, 600, 200, 0 };
     int32_t ticks[2];
     for (int k = 0; k < 2; ++k) {
-        Host host;
+        HOST(host);
         StartStill(&host, &budget);
         host.every = 50;
         kiriSheet small = AddFine(&host, 40), large = AddFine(&host, 40);
         Host_Cut(&host, large, (const float[]){ -0.1f, 0.31f, 1.1f, 0.67f }, 2);
         ticks[k] = TicksToCommit(&host, large, small, k == 0 ? 0 : 1);
-        Host_Stop(&host);
     }
     assert_in_range(ticks[1], ticks[0], 2 * ticks[0] + 4);
 }
@@ -297,7 +293,7 @@ TEST(FramesWhenCutEnds)
 {
     static const kiriBudget budgets[] = { { 0, 0, 0, 0 }, { 30, 90, 30, 0 } };
     for (size_t k = 0; k < 2; ++k) {
-        Host host;
+        HOST(host);
         kiriSheetDef def = DefaultSheet();
         def.frameCount = 0;
         def.frameLength = 0.5f;
@@ -318,7 +314,6 @@ TEST(FramesWhenCutEnds)
         Settle(&host, &commits);
         assert_true(Host_Counts(&host, sheet).frames > frames + 3);
         assert_true(kiriCut_End(host.world, cut) == KIRI_ERROR_ID);
-        Host_Stop(&host);
     }
 }
 
@@ -328,7 +323,7 @@ TEST(EndIsRefused)
 {
     int32_t refused = 0;
     for (int32_t points = 1; points < 40; ++points) {
-        Host host;
+        HOST(host);
         kiriEvent event;
         static const kiriBudget budget = { 16, 10, 10, 0 };
         StartStill(&host, &budget);
@@ -352,7 +347,6 @@ TEST(EndIsRefused)
             finished = Host_Events(&host, KIRI_EVENT_CUT_FINISHED, &event);
         }
         assert_int_equal(finished, 1);
-        Host_Stop(&host);
     }
     assert_true(refused > 0);
 }

@@ -148,7 +148,6 @@ TEST(JitteredRowsHangAsTheyShould)
         double error = HangingError(&host, sheet, NULL);
         print_message("%d rows, h/L 1/%.0f: %.2f %%\n", rows, (double)(SIDE / def.material.thickness), 100.0 * error);
         assert_true(error < cases[k / 4].most);
-        Host_Stop(&host);
     }
 }
 
@@ -261,7 +260,7 @@ static double ForceOfStrip(float slack, float strain)
     kiriSheetDef def = PaperDef(80, 1.0f);
     def.material = (kiriMaterial){ 7.4e8f, 0.0f, 2e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, slack, 0 };
     def.planar = 1;
-    Host host;
+    HOST(host);
     kiriPin clamps[2];
     AddClampedStrip(&host, &def, 9, 0.0, (float[]){ 0.0f, 0.0f, 0.0f }, 80, clamps);
     for (int32_t tick = 1; tick <= 400; ++tick) {
@@ -271,7 +270,6 @@ static double ForceOfStrip(float slack, float strain)
     }
     double force[3], torque[3];
     OK(kiriPin_GetReaction(host.world, clamps[1], force, torque));
-    Host_Stop(&host);
     return force[0];
 }
 
@@ -321,7 +319,6 @@ TEST(FlatSquaresFold)
         }
         print_message("material %d, %d frames: %.3f m off the plane\n", materials[k / 2], def.frameCount, off);
         assert_true(off > 0.02);
-        Host_Stop(&host);
     }
 }
 
@@ -367,6 +364,5 @@ TEST(SpiralsNeverFreeze)
         print_message("%d frames, %.1f turns: %d still ticks, %.1f systems\n", counts[k % 2], turns, still,
                       systems / 400.0);
         assert_true(still <= 4);
-        Host_Stop(&host);
     }
 }

@@ -123,7 +123,6 @@ TEST(ClampAcross)
             }
             Host_Ticks(&host, 300, 0.01f, 1);
             TipOf(&host, sheet, i == 0 ? &strip : &free, i == 0 ? tip : whole);
-            Host_Stop(&host);
         }
         double error = hypot(tip[0] - at - whole[0], tip[2] - whole[2]) / fabs(whole[2]);
         assert_true(error < (k < 5 ? 0.01 : 0.0015));
@@ -159,7 +158,6 @@ TEST(EndLoad)
         OK(kiriPin_GetReaction(host.world, clamp, force, torque));
         assert_float_equal(force[2], expected[0], 1e-6 * expected[0]);
         assert_float_equal(torque[1], -expected[0] * end[0], 1e-5 * expected[0] * end[0]);
-        Host_Stop(&host);
     }
 }
 
@@ -211,7 +209,6 @@ TEST(LineLoads)
         double length = sqrt(pow((double)inside[2] - inside[0], 2.0) + pow((double)inside[3] - inside[1], 2.0));
         const double middle[3] = { 0.5 * ((double)inside[0] + inside[2]), 0.5 * ((double)inside[1] + inside[3]), 0.0 };
         CheckResultant(&host, sheet, q, length, middle);
-        Host_Stop(&host);
     }
 }
 
@@ -241,7 +238,6 @@ TEST(LineAlongCut)
     for (int k = 0; k < 2; ++k) {
         assert_float_equal(Host_Totals(&host, sheets[k]).center[2], 0.0, 0.7); /* a free piece has fallen 4.9 m */
     }
-    Host_Stop(&host);
 }
 
 TEST(PointLoads)
@@ -261,7 +257,6 @@ TEST(PointLoads)
     CheckResultant(&host, sheet, force, 2.0, place);
     OK(kiriSheet_ApplyPressure(host.world, sheet, 4.0f));
     CheckResultant(&host, sheet, pressure, 1.0, middle);
-    Host_Stop(&host);
 }
 
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */
@@ -362,7 +357,6 @@ TEST(ReactionsAtRest)
             assert_float_equal(force[a], expected[a], 2e-5 * weight);
             assert_float_equal(torque[a], moment[a], 2e-5 * weight);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -390,7 +384,6 @@ TEST(ReactionsInMotion)
             }
         }
         assert_true(worst < (k < HOLDS ? 1e-6 : 1e-4) * weight);
-        Host_Stop(&host);
     }
 }
 
@@ -424,7 +417,6 @@ TEST(HoldsBearWind)
             assert_float_equal(force[a], due[a], tolerance);
             assert_float_equal(torque[a], totals.center[b] * due[c] - totals.center[c] * due[b], tolerance);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -617,7 +609,6 @@ TEST(Models)
         } else {
             assert_float_equal(hypot(end[0] / strip.length - tip[0], end[2] / strip.length - tip[1]), 0.0, 0.02);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -680,7 +671,6 @@ TEST(Sleep)
         }
         assert_true(IsAwake(&host, sheet));
     }
-    Host_Stop(&host);
 }
 
 /* ---- Cuts and pieces --------------------------------------------------------------------------------------------- */
@@ -778,7 +768,7 @@ TEST(Detach)
 /* A clamp outlives a piece that it held, and goes with the last one. */
 TEST(DestroyPieces)
 {
-    Host host;
+    HOST(host);
     kiriPin clamp, left;
     static const float beside[4] = { 0.1f, 0.2f, 0.2f, 0.2f };
     kiriSheet sheet = HangCurtain(&host, &clamp);
@@ -794,7 +784,6 @@ TEST(DestroyPieces)
     double force[3], torque[3];
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));
     OK(kiriDestroyPin(host.world, clamp));
-    Host_Stop(&host);
 }
 
 /* Pins come and go in any order; those that are left hold what they held. */
@@ -838,7 +827,6 @@ TEST(PinsComeAndGo)
             assert_memory_equal(&now, &states[k], sizeof(now));
         }
     }
-    Host_Stop(&host);
 }
 
 /* A slit from the clamped edge on gives an arm to another frame, which the clamp did not hold. What it holds on keeps
@@ -864,7 +852,6 @@ TEST(CutAtClamp)
     Host_Ticks(&host, 600, 0.01f, 1);
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));
     assert_float_equal(force[2], weight, 1e-4 * weight);
-    Host_Stop(&host);
 }
 
 /* ---- Extremes ---------------------------------------------------------------------------------------------------- */

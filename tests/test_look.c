@@ -58,13 +58,12 @@ static Looks LookAlong(const kiriMesh* mesh, double angle)
 
 static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
 {
-    Host host;
     float points[2 * FRAMES];
     for (int i = 0; i < FRAMES; ++i) {
         points[2 * i] = (float)((i + 0.5) * LENGTH / FRAMES);
         points[2 * i + 1] = 0.05f;
     }
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = 280;
     def.material.detail = 0; /* weights alone */
@@ -77,7 +76,6 @@ static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
     OK(Host_Tick(&host, 0.01f, 1));
     kiriMesh mesh = Host_Mesh(&host, sheet);
     Looks looks = LookAlong(&mesh, angle);
-    Host_Stop(&host);
     return looks;
 }
 
@@ -223,7 +221,6 @@ static double SteepestOpening(double end, double slant)
         gap = openings[i].gap;
     }
     assert_true(i > 20 && gap > 0.05);
-    Host_Stop(&host);
     return steepest * 0.1 / gap;
 }
 

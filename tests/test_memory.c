@@ -110,7 +110,6 @@ TEST(PlainTicks)
             assert_int_equal(taken, before);
             Host_Cut(&host, sheet, across, 3); /* and again for what the cut leaves */
         }
-        Host_Stop(&host);
     }
 }
 
@@ -140,7 +139,6 @@ TEST(CuttingTicks)
     assert_in_range(first, 1, TICKS / 8);
     assert_in_range(second, 0, 3 * first / 4);
     assert_true(Host_Counts(&host, sheet).vertices > 2000);
-    Host_Stop(&host);
 }
 
 /* ---- Memory that is refused ---- */
@@ -169,7 +167,6 @@ static uint64_t LayoutWithoutFailure(int32_t columns)
     AddForCut(&host, columns);
     OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
     uint64_t layout = LayoutOf(&host);
-    Host_Stop(&host);
     return layout;
 }
 
@@ -205,7 +202,6 @@ TEST(ScarceMemoryIsASpentBudget)
         host.failEvery = 0;
         CheckIndices(&host, sheet, Host_Counts(&host, sheet));
         assert_true(LayoutOf(&host) == LayoutWithoutFailure(16));
-        Host_Stop(&host);
     }
     print_message("%d ticks with all the memory, %d where each %dth request is refused\n", ticks[0], ticks[1], EVERY);
     assert_in_range(ticks[1], ticks[0], 3 * ticks[0]);
@@ -226,6 +222,5 @@ TEST(BytesOfVertices)
         int64_t before = host.bytes;
         Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);
         assert_true((double)(host.bytes - before) < cases[i].most * 65.0 * 65.0);
-        Host_Stop(&host);
     }
 }

@@ -19,7 +19,6 @@ static kiriResult Try(const float* points, int32_t vertexCount, const int32_t* i
     kiriSheet sheet;
     START_HOST(host);
     kiriResult result = kiriCreateSheet(host.world, &def, &sheet);
-    Host_Stop(&host);
     return result;
 }
 
@@ -33,7 +32,6 @@ static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* 
     assert_int_equal(Host_Counts(&host, sheet).pieces, pieces);
     assert_int_equal(Host_Counts(&host, sheet).vertices, vertices);
     OK(Host_Tick(&host, 0.01f, 1));
-    Host_Stop(&host);
 }
 
 static const float Unit[] = { 0, 0, 1, 0, 1, 1, 0, 1 };

@@ -79,7 +79,6 @@ static uint64_t CutInTwo(const Choice* choice, float* fallen)
     }
     uint64_t hash = Host_Hash(&host);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-    Host_Stop(&host);
     return hash;
 }
 
@@ -131,7 +130,6 @@ TEST(NewFramesAreStretched)
                   LengthOf(&fresh.rotation[0]));
     assert_true(LengthOf(&fresh.rotation[3]) > 1.05 && LengthOf(&fresh.rotation[3]) < 1.3);
     assert_true(LengthOf(&fresh.rotation[0]) > 0.85 && LengthOf(&fresh.rotation[0]) < 1.02);
-    Host_Stop(&host);
 }
 
 /* ---- Totals ---- */
@@ -167,7 +165,6 @@ TEST(TotalsHold)
                         (before.kineticEnergy + before.elasticEnergy) * (1.0 + 1e-4));
             before = after;
         }
-        Host_Stop(&host);
     }
 }
 
@@ -209,7 +206,6 @@ TEST(PlanarSheetsStayInTheirPlane)
             way = fmax(way, fabs((double)x[1] - rest[1]));
         }
         assert_true(way > 1e-3);
-        Host_Stop(&host);
     }
 }
 
@@ -230,7 +226,6 @@ TEST(PlanarEqualsSpace)
             Host_Ticks(&host, 60, 0.01f, 2);
             states[planar] = StateOf(&host, sheet, 3);
             assert_true(fabs((double)states[planar].position[0] - states[planar].restPoint[0]) > 1e-4);
-            Host_Stop(&host);
         }
         for (int a = 0; a < 3; ++a) {
             assert_float_equal(states[0].position[a], states[1].position[a], 2e-7);
@@ -266,7 +261,6 @@ TEST(TensionDoesNotBuckle)
         for (int32_t n = 0; n < mesh.vertexCount; ++n) {
             assert_true(fabsf(mesh.positions[3 * n + 2]) < 1e-4f && mesh.positions[3 * n] < 1.2f);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -303,7 +297,6 @@ TEST(MemoryIsKept)
         }
         host.failAt = -1;
         assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-        Host_Stop(&host);
         Rectangle_Free(&rectangle);
     }
 }
@@ -341,5 +334,4 @@ TEST(ArgumentsAreChecked)
     kiriFrameState now = StateOf(&host, sheet, 0);
     assert_true(fabsf(now.position[0] - 0.2f) < 1e-6f && fabsf(now.position[2]) < 1e-6f);
     assert_true(fabsf(now.rotation[1] - 0.6f) < 1e-6f && now.held == 1);
-    Host_Stop(&host);
 }

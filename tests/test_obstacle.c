@@ -277,7 +277,6 @@ TEST(BadDefsAreRefused)
     REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateObstacle(host.world, &prism, &none));
     prism.cookie = 1;
     REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(host.world, &prism, &none));
-    Host_Stop(&host);
 }
 
 /* There it would be read as no float after a tick. Short of that it goes on, and comes back. */
@@ -304,7 +303,6 @@ TEST(WhereFloatsEndNothingMoves)
         OK(kiriObstacle_SetVelocity(host.world, obstacle, zero, zero));
         OK(kiriObstacle_SetPose(host.world, obstacle, zero, def.rotation));
         OK(Host_Tick(&host, dt, 1));
-        Host_Stop(&host);
     }
 }
 
@@ -326,7 +324,6 @@ TEST(StaleIdsAreRefused)
         REFUSED(KIRI_ERROR_ID, kiriObstacle_SetMass(host.world, ids[i], 1.0f, zero, zero));
         assert_int_equal(kiriObstacle_GetState(host.world, ids[i], &was), KIRI_ERROR_ID);
     }
-    Host_Stop(&host);
 }
 
 /* Half the contact thickness above the floor it comes to rest, and sleeps. The floor bears its weight all the time. */
@@ -350,7 +347,6 @@ TEST(PlateRestsOnAFloor)
     assert_true(fabs(StateOf(&host, floor).impulse[2] / weight - 1.0) < 1e-3);
     assert_true(fabs(StateOf(&host, floor).angularImpulse[0] / weight) < 1e-3);
     assert_true(StateOf(&host, floor).contacts >= 3);
-    Host_Stop(&host);
 }
 
 static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
@@ -386,7 +382,6 @@ TEST(PushSpeedIsKept)
             last = height;
         }
         assert_true(last > (speeds[k] < 0.1f ? 0.0 : 0.004)); /* out, half of the contact thickness above */
-        Host_Stop(&host);
     }
 }
 
@@ -416,7 +411,6 @@ TEST(SleepersWake)
             }
             OK(Host_Tick(&host, dt, 2));
             assert_int_equal(IsAwake(&host, sheet), !isFar);
-            Host_Stop(&host);
         }
     }
 }
@@ -434,7 +428,6 @@ TEST(SlowLiftsCarry)
     double height = TotalsOf(&host, sheet).center[2] - (double)StateOf(&host, box).position[2];
     assert_true(fabs(StateOf(&host, box).position[2] - 0.008) < 1e-5);
     assert_true(fabs(height - 0.205) < 8e-4);
-    Host_Stop(&host);
 }
 
 TEST(LiftsAndConveyorsCarry)
@@ -450,7 +443,6 @@ TEST(LiftsAndConveyorsCarry)
     assert_true(fabs(totals.momentum[2] / totals.mass - 0.5) < 1e-3);
     assert_true(fabs(totals.momentum[0] / totals.mass - 0.3) < 1e-3);
     assert_true(fabs(totals.center[2] - StateOf(&host, lift).position[2] - 0.005) < 2e-4);
-    Host_Stop(&host);
 }
 
 /* What two plates lose, the crate that they fall on gets; and it is not more than its mass can take. */
@@ -488,7 +480,6 @@ TEST(SheetsShareAnObstacle)
     /* No faster than all of them together can be: nobody was pushed out by more than came in. */
     double slowest = before / (0.02 + 2.0 * TotalsOf(&host, plates[0]).mass);
     assert_true(given / 0.02 > 2.0 * slowest && after > before);
-    Host_Stop(&host);
 }
 
 /* m/s: of the fastest frame of a sheet of four, one of them held, in the ticks in which a box comes up to it and goes
@@ -523,7 +514,6 @@ static double FastestOverBox(int32_t skinning, float beside)
             fastest = speed > fastest ? speed : fastest;
         }
     }
-    Host_Stop(&host);
     return fastest;
 }
 
@@ -560,7 +550,6 @@ TEST(FastSheetsDoNotPass)
                 assert_true(mesh.positions[3 * v + 2] > 0.0f);
             }
         }
-        Host_Stop(&host);
     }
 }
 
@@ -592,7 +581,6 @@ TEST(FastClothsDoNotPass)
             }
             assert_true(1000 * passed <= most[k] * mesh.vertexCount);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -613,7 +601,6 @@ TEST(GroupsTellWhoTouches)
     Ticks(&host, 40);
     assert_true(TotalsOf(&host, holds).center[2] > 0.0);
     assert_true(TotalsOf(&host, passes).center[2] < -1.0);
-    Host_Stop(&host);
 }
 
 /* Of a rigid planar plate that stands on its edge at a height. */
@@ -647,7 +634,6 @@ TEST(PlanarSheetsRestOnPolygons)
         Ticks(&host, 60);
         assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.2 - 0.005 - 0.05) < 1e-3);
         assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
-        Host_Stop(&host);
     }
 }
 
@@ -669,7 +655,6 @@ TEST(PlanarBordersRestOnCorners)
     Ticks(&host, 60);
     assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.002 - 0.05) < 1e-3);
     assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
-    Host_Stop(&host);
 }
 
 /* Two triangles, 0.2 m wide, bridge balls of 2 cm and rods: flat, and as the border of a planar sheet. */
@@ -704,7 +689,6 @@ TEST(RoundObstaclesHoldBetweenVertices)
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 1, 1);
         Ticks(&host, 90);
         assert_true(fabs(TotalsOf(&host, sheet).center[2] - (planar ? 0.102 : 0.002)) < 1e-3);
-        Host_Stop(&host);
     }
 }
 
@@ -720,7 +704,6 @@ TEST(ObstaclesAdvance)
     kiriObstacleState is = StateOf(&host, obstacle);
     assert_true(fabs(is.position[0] - 2.0) < 1e-5);
     assert_true(fabs(is.rotation[0] - cos(3.0)) < 1e-6 && fabs(is.rotation[1] - sin(3.0)) < 1e-6);
-    Host_Stop(&host);
 }
 
 /* A world of everything, to be driven twice and with refusals. */
@@ -754,7 +737,6 @@ TEST(SameCallsSameBits)
         FillWorld(&host, sheets);
         Ticks(&host, 40);
         hashes[run] = Host_Hash(&host);
-        Host_Stop(&host);
     }
     assert_true(hashes[0] == hashes[1]);
 }
@@ -788,7 +770,6 @@ TEST(RefusedTicksChangeNothing)
     FillWorld(&host, sheets);
     Ticks(&host, 40);
     assert_true(Host_Hash(&host) == refused);
-    Host_Stop(&host);
 }
 
 TEST(CreationMayBeRefused)
@@ -809,7 +790,6 @@ TEST(CreationMayBeRefused)
         assert_true(obstacle == 0 && Host_Hash(&host) == before);
     }
     assert_in_range(n, 1, 5);
-    Host_Stop(&host);
 }
 
 /* What touched once takes no memory to touch again. */
@@ -832,7 +812,6 @@ TEST(TouchingAgainAllocatesNothing)
     }
     assert_int_equal(host.calls, calls);
     assert_true(touched > 0);
-    Host_Stop(&host);
 }
 
 /* A sheet that swings from a corner is nowhere farther after a tick than was said before it. */
@@ -860,5 +839,4 @@ TEST(ReachHoldsTheTick)
         most = fmax(most, least);
     }
     assert_true(most < 0.5); /* and is not said to be anywhere */
-    Host_Stop(&host);
 }

@@ -49,7 +49,6 @@ TEST(PairsAreFoundWhereNear)
         AddSquare(&host, &def);
         OK(Host_Tick(&host, 1.0f / 60.0f, 2));
         assert_int_equal(Pairs(&host), cases[i].pairs);
-        Host_Stop(&host);
     }
 }
 
@@ -90,7 +89,6 @@ TEST(WhoWasAloneIsFound)
     AddSquare(&host, &def);
     OK(Host_Tick(&host, dt, 2));
     assert_int_equal(Pairs(&host), 1);
-    Host_Stop(&host);
 }
 
 /* A square that is pinned at its corners. */
@@ -143,7 +141,6 @@ TEST(SleeperIsMet)
         }
         assert_true(IsAwake(&host, sleeper));
         Host_Ticks(&host, 30, dt, 2);
-        Host_Stop(&host);
     }
 }
 
@@ -158,7 +155,6 @@ TEST(GroupsApart)
     AddSquare(&host, &def);
     OK(Host_Tick(&host, 1.0f / 60.0f, 2));
     assert_int_equal(Pairs(&host), 0);
-    Host_Stop(&host);
 }
 
 enum { PILE = 4 };
@@ -199,7 +195,7 @@ static void TickUntilAsleep(Host* host, const kiriSheet* sheets, int count, int 
 
 TEST(PileRestsInOrder)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
     TickUntilAsleep(&host, sheets, PILE, 300);
@@ -212,7 +208,6 @@ TEST(PileRestsInOrder)
     assert_int_equal(Crossing_Measure(host.world, sheets, PILE).crossing, 0);
     OK(Host_Tick(&host, dt, 2));
     assert_int_equal(Pairs(&host), 0);
-    Host_Stop(&host);
 }
 
 /* In a high pile the lower sheets are stopped in the tick in which those above still fall. */
@@ -229,24 +224,22 @@ TEST(HighPileRests)
     }
     TickUntilAsleep(&host, sheets, HIGH, 120);
     assert_int_equal(Crossing_Measure(host.world, sheets, HIGH).crossing, 0);
-    Host_Stop(&host);
 }
 
 TEST(NeverCrossOnTheirWay)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
     for (int tick = 0; tick < 60; ++tick) {
         OK(Host_Tick(&host, dt, 2));
         assert_int_equal(Crossing_Measure(host.world, sheets, PILE).crossing, 0);
     }
-    Host_Stop(&host);
 }
 
 TEST(WhatTouchesWakesAndFallsAsleepTogether)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
     TickUntilAsleep(&host, sheets, PILE, 300);
@@ -259,7 +252,6 @@ TEST(WhatTouchesWakesAndFallsAsleepTogether)
     OK(kiriDestroySheet(host.world, sheets[0]));
     Host_Ticks(&host, 20, dt, 2);
     assert_true(Host_Totals(&host, sheets[1]).center[2] < height - 0.003);
-    Host_Stop(&host);
 }
 
 /* A heavy square falls into a cloth that hangs by its four corners. */
@@ -287,7 +279,6 @@ static double Sag(bool isLoaded)
     }
     Host_Ticks(&host, 240, dt, 2);
     double sag = -Host_Totals(&host, cloth).center[2];
-    Host_Stop(&host);
     return sag;
 }
 
@@ -312,7 +303,6 @@ TEST(FallingPairFallsFreely)
     assert_true(fallen < -1.0);
     assert_true(fabs(Host_Totals(&host, upper).center[2] - fallen) < 0.005);
     assert_true(fabs(Host_Totals(&host, lower).center[2] - (fallen - 0.0045)) < 0.005);
-    Host_Stop(&host);
 }
 
 /* A square is cut out of a sheet that hangs, and falls clear of it. */
@@ -339,7 +329,6 @@ TEST(PieceFallsClear)
     }
     kiriPieceState piece = World_PieceState(host.world, sheet, 1);
     assert_true(piece.upper[2] < 0.0f); /* below the sheet's lower edge */
-    Host_Stop(&host);
 }
 
 /* Lays one half of a cloth over the other, lets go, and cuts it. Returns the triangles that cross before the cut. */
@@ -372,7 +361,6 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
     Host_Cut(&host, sheet, (const float[]){ -0.1f, 0.2f, 0.7f, 0.21f }, 2);
     Host_Ticks(&host, 20, dt, 2);
     *hash = Host_Hash(&host);
-    Host_Stop(&host);
     return crossing;
 }
 
@@ -390,19 +378,18 @@ TEST(SameCallsSameBits)
 {
     uint64_t hashes[2];
     for (int run = 0; run < 2; ++run) {
-        Host host;
+        HOST(host);
         kiriSheet sheets[PILE];
         StartPile(&host, sheets);
         Host_Ticks(&host, 40, dt, 2);
         hashes[run] = Host_Hash(&host);
-        Host_Stop(&host);
     }
     assert_true(hashes[0] == hashes[1]);
 }
 
 TEST(PlainTicksAllocateNothing)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
     TickUntilAsleep(&host, sheets, PILE, 300);
@@ -412,7 +399,6 @@ TEST(PlainTicksAllocateNothing)
     int64_t calls = host.calls;
     Host_Ticks(&host, 10, dt, 2);
     assert_true(host.calls == calls);
-    Host_Stop(&host);
 }
 
 /* A tick that is refused leaves the world as it was, and the next ones go on as if nothing had been. */
@@ -421,7 +407,7 @@ TEST(RefusedTicksChangeNothing)
     enum { TICKS = 6 };
     uint64_t expected = 0;
     for (int64_t fail = -1; fail < 40; ++fail) {
-        Host host;
+        HOST(host);
         kiriSheet sheets[PILE];
         StartPile(&host, sheets);
         int64_t first = host.calls;
@@ -437,6 +423,5 @@ TEST(RefusedTicksChangeNothing)
         host.failAt = -1;
         expected = fail < 0 ? Host_Hash(&host) : expected;
         assert_true(Host_Hash(&host) == expected);
-        Host_Stop(&host);
     }
 }

@@ -283,7 +283,6 @@ static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
         }
         TickOnce(&host, budget->samples, &result);
     }
-    Host_Stop(&host);
     return ticks;
 }
 

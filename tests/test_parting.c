@@ -146,7 +146,6 @@ TEST(OfSeveralSheets)
     all[1] = Host_FrameOf(&host, sheets[1], 0);
     OK(kiriWorld_DestroyPieces(host.world, all, 2));
     assert_int_equal(Host_Tick(&host, 1.0f / 60.0f, 1), KIRI_OK);
-    Host_Stop(&host);
 }
 
 /* The first frame of the piece whose vertices are nearest to a rest point. */
@@ -319,7 +318,6 @@ TEST(GoneIsNotSeen)
     OK(Host_Tick(&host, 1.0f / 60.0f, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2); /* from one border of the rest to the other */
     assert_int_equal(Host_Counts(&host, detached).pieces, 1);
-    Host_Stop(&host);
 }
 
 /* A small sheet falls through the place of a removed piece in a large one that is held, and lies on it beside. */
@@ -354,7 +352,6 @@ TEST(GoneTouchesNothing)
     }
     assert_true(Host_Totals(&host, fallen[0]).center[2] < -0.5);
     assert_true(Host_Totals(&host, fallen[1]).center[2] > -0.01);
-    Host_Stop(&host);
 }
 
 /* ---- On account ---- */
@@ -408,7 +405,6 @@ TEST(CallsKeepToTheBudget)
         for (int32_t s = 0; s <= count; ++s) { /* the sheets come in the order that was asked for */
             layouts[k] = 3 * layouts[k] + LayoutAt(&host, s);
         }
-        Host_Stop(&host);
     }
     assert_true(layouts[0] == layouts[1]);
 }
@@ -439,7 +435,6 @@ TEST(DestroyingIsOnAccount)
             assert_in_range(profile.samplesRefreshed, 0, 50);
             paid[sheets - 1] += profile.samplesRefreshed;
         } while (profile.samplesRefreshed == 50);
-        Host_Stop(&host);
     }
     assert_true(paid[0] > 50 && paid[1] == 2 * paid[0]);
 }
@@ -474,7 +469,6 @@ TEST(UnderBudgets)
         }
         while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
         }
-        Host_Stop(&host);
     }
     assert_true(waited[KIRI_STAGE_CUT] + waited[KIRI_STAGE_GRID] > 0 && waited[KIRI_STAGE_SHAPE] > 0 &&
                 waited[KIRI_STAGE_SAMPLES] > 0 && finished > 5);
@@ -563,7 +557,7 @@ TEST(WaitingChangesNothing)
 TEST(GoneIsGone)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
-    Host host;
+    HOST(host);
     Wait wait = StartWait(&host, &budget);
     kiriPieceState zero = { 0 }, pieceState;
     kiriCounts counts = Host_Counts(&host, wait.sheet);
@@ -622,14 +616,13 @@ TEST(GoneIsGone)
     }
     after = Host_Mesh(&host, wait.sheet);
     assert_int_equal(CountHidden(&after), 0);
-    Host_Stop(&host);
 }
 
 /* What waits to be detached may be destroyed, and something has to be left all the time. */
 TEST(AskedTwice)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
-    Host host;
+    HOST(host);
     Wait wait = StartWait(&host, &budget);
     kiriSheet detached;
     int32_t dropped;
@@ -649,14 +642,13 @@ TEST(AskedTwice)
     assert_int_equal(done, 1);
     assert_int_equal(Host_SheetCount(&host), 2);
     assert_float_equal(Host_Totals(&host, wait.sheet).area, 0.5, 0.03);
-    Host_Stop(&host);
 }
 
 /* The largest piece waits to be detached: crumbs are below the next one, too, for the sheet must not be left empty. */
 TEST(CrumbsWhileTheLargestLeaves)
 {
     static const kiriBudget budget = { 0, 30, 20, 0 };
-    Host host;
+    HOST(host);
     Wait wait = StartWait(&host, &budget);
     kiriSheet detached;
     kiriPieceState largest, other;
@@ -671,7 +663,6 @@ TEST(CrumbsWhileTheLargestLeaves)
     }
     assert_int_equal(Host_SheetCount(&host), 2);
     assert_int_equal(Host_Counts(&host, wait.sheet).pieces, 1);
-    Host_Stop(&host);
 }
 
 /* ---- On a floor ---- */
@@ -799,7 +790,6 @@ static void TryShape(float width, float height, int32_t columns, int32_t rows, i
         assert_true(profile.cellsSettled < 200 * (cells + 10)); /* measured: 29 */
         assert_in_range(Host_Counts(&host, sheet).frames, 1, cells);
     }
-    Host_Stop(&host);
 }
 
 /* What used to hang: more frames than cells, by count or by rigidArea. */

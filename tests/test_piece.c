@@ -200,7 +200,6 @@ TEST(ListsOfConfetti)
         }
         int32_t pieces = Host_Counts(&host, sheet).pieces;
         most = pieces > most ? pieces : most;
-        Host_Stop(&host);
     }
     assert_true(most > 40);
 }
@@ -226,7 +225,6 @@ TEST(ListsWhileWorkWaits)
     }
     assert_true(waits > 2);
     CheckPieces(&host, sheet);
-    Host_Stop(&host);
 }
 
 /* Nothing is sorted again when nothing has changed; the arrays stay where they are. */
@@ -245,7 +243,6 @@ TEST(ListsAreLazy)
     assert_int_equal(host.calls, calls);
     assert_ptr_equal(first.vertices, again.vertices);
     assert_ptr_equal(first.indices, again.indices);
-    Host_Stop(&host);
 }
 
 TEST(PieceErrors)
@@ -274,7 +271,6 @@ TEST(PieceErrors)
     assert_true(failures > 0);
     OK(kiriSheet_GetPieceFrames(host.world, sheet, 0, &frames, &count));
     assert_int_equal(count, 4);
-    Host_Stop(&host);
 }
 
 /* The frame that the event names is in the piece, whatever the piece is numbered later. */
@@ -296,7 +292,6 @@ TEST(EventNamesFrame)
     assert_float_equal(off.mass, off.area * def.material.density * def.material.thickness, 1e-9);
     assert_float_equal(off.center[0], 0.51, 1e-4);
     assert_true(off.lower[0] > 0.39f && off.upper[1] < 0.63f);
-    Host_Stop(&host);
 }
 
 /* ---- Sheets of their own ---- */
@@ -460,7 +455,6 @@ TEST(PartsAreWhatTheyWere)
         Shred(&host, sheet, 2, &seed); /* cutting goes on */
         Tick(&host, 3);
         CheckPieces(&host, sheet);
-        Host_Stop(&host);
     }
 }
 
@@ -592,7 +586,6 @@ TEST(CutsStayWithTheRest)
             assert_memory_equal(&before, &after, sizeof(before));
         }
         CheckPieces(&host, sheet);
-        Host_Stop(&host);
     }
 }
 
@@ -617,7 +610,6 @@ TEST(BladeOfTheRestGoesOn)
         kiriPieceMesh mesh = MeshOf(&host, sheet, PieceAt(&host, sheet, 0.8));
         most[detach] = mesh.triangleCount;
         areas += (uint64_t)mesh.vertexCount;
-        Host_Stop(&host);
     }
     assert_true(most[0] == most[1] && areas % 2 == 0);
 }
@@ -654,7 +646,6 @@ TEST(IdsMoveAlong)
     OK(kiriFrame_GetState(host.world, frames[0], &frame));
     assert_int_equal(kiriFrame_GetState(host.world, frames[2], &frame), KIRI_ERROR_ID);
     OK(kiriDestroySheet(host.world, detached));
-    Host_Stop(&host);
 }
 
 /* Contacts that wait push the part that has the point. */
@@ -673,7 +664,6 @@ TEST(ContactsMoveAlong)
     Tick(&host, 1);
     assert_true(Host_Totals(&host, detached).momentum[2] > 1e-3);
     assert_true(fabs(Host_Totals(&host, sheet).momentum[2]) < 1e-12);
-    Host_Stop(&host);
 }
 
 TEST(PartsAreRefused)
@@ -697,7 +687,6 @@ TEST(PartsAreRefused)
     assert_int_equal(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, 0)), KIRI_ERROR_STATE);
     assert_float_equal(Host_Totals(&host, sheet).area, 0.7 * 0.513, 1e-4);
     CheckPieces(&host, sheet);
-    Host_Stop(&host);
 }
 
 /* ---- Crumbs ---- */
@@ -729,7 +718,6 @@ TEST(DropCrumbs)
         assert_int_equal(count, 0);
         assert_int_equal(Host_Hash(&host), hash);
         Tick(&host, 2);
-        Host_Stop(&host);
     }
 }
 
@@ -768,7 +756,6 @@ TEST(CrumbsAreNotSampled)
             frames[with] += piece.area < 0.05 ? piece.frames : 0;
         }
         CheckPieces(&host, sheet);
-        Host_Stop(&host);
     }
     assert_true(crumbs[0] == crumbs[1] && crumbs[0] > 20);
     assert_true(frames[0] > crumbs[0] + 5 && frames[1] < frames[0]);
@@ -793,5 +780,4 @@ TEST(CrumbsOfDef)
         int32_t small = StateOf(&host, sheet, 0).area < 0.1 ? 0 : 1;
         assert_true(with ? StateOf(&host, sheet, small).frames == 1 : StateOf(&host, sheet, small).frames > 1);
     }
-    Host_Stop(&host);
 }

@@ -124,7 +124,6 @@ TEST(BordersBeginAtSlitEnds)
             assert_int_equal(links->links.count, 1);
             double tangent = fabs(links->links.data[0].tangent.y), width = links->links.data[0].width;
             AssertNear(width * tangent, 1.0 - (double)end, 0.02 / resolution);
-            Host_Stop(&host);
         }
     }
 }
@@ -160,7 +159,6 @@ TEST(BordersStayBesideSlits)
             bool isAcross = (a[0] - 0.5f) * (b[0] - 0.5f) < 0.0f && at > 0.3 + 0.1 / resolution;
             assert_true(!isAcross || links->links.data[k].length > 1.001 * hypot(b[0] - a[0], b[1] - a[1]));
         }
-        Host_Stop(&host);
     }
 }
 
@@ -208,7 +206,6 @@ TEST(CloseFramePointsAreRefused)
         } else {
             Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -223,7 +220,6 @@ TEST(ManyFramesAreRefused)
     def.frameCount = 25;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
     assert_int_equal(Host_Counts(&host, sheet).frames, 25);
-    Host_Stop(&host);
 }
 
 /* Re-sampling stops there, after cuts too. */
@@ -243,7 +239,6 @@ TEST(ResamplingStops)
     kiriCounts counts = Host_Counts(&host, sheet);
     assert_int_equal(counts.pieces, 2);
     assert_in_range(counts.frames, 3, counts.cells / 2);
-    Host_Stop(&host);
 }
 
 /* ---- How many ---- */
@@ -313,7 +308,6 @@ TEST(NoMoreThanTheHostGave)
             more += Host_Counts(&host, sheet).frames > counts.frames;
         }
         Rectangle_Free(&shape);
-        Host_Stop(&host);
     }
     assert_true(made > 120 && parts > 20 && more > 10);
 }
@@ -329,5 +323,4 @@ TEST(FramesWhereCutIs)
     Host_Cut(&host, sheet, (const float[]){ 0.41f, 0.5f, 0.46f, 0.52f }, 2);
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).frames, 100);
-    Host_Stop(&host);
 }

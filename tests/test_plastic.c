@@ -360,7 +360,6 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
         OK(Host_Tick(&host, Dt, 2));
     }
     kiriTotals totals = World_Totals(host.world, sheet);
-    Host_Stop(&host);
     return totals.elasticEnergy;
 }
 

@@ -106,7 +106,6 @@ TEST(WhileWorkWaits)
         for (int corner = 0; corner < 4; ++corner) {
             assert_true(OffTarget(&host, corner) < 0.002);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -156,7 +155,6 @@ TEST(LoopOverEvents)
         }
         assert_int_equal(off, 3);
         assert_float_equal(Host_Totals(&host, sheet).area, area, 1e-6);
-        Host_Stop(&host);
     }
 }
 
@@ -332,7 +330,6 @@ TEST(IdsComeOnce)
     }
     CheckUnique(ids, all);
     Rectangle_Free(&mesh);
-    Host_Stop(&host);
 }
 
 /* A pool that has no slot left: as if all that the header allows were in use. */

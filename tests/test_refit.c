@@ -367,7 +367,7 @@ static double LongestFade(const kiriFades* fades)
 
 TEST(FadesEnd)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     StartFading(&host, &def, &sheet);
@@ -383,7 +383,6 @@ TEST(FadesEnd)
     OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
     assert_int_equal(fades->fading.count, 0);
     assert_true(host.calls == calls && host.live < live); /* nothing allocated, and the room given back */
-    Host_Stop(&host);
 }
 
 /* A sheet that lies still is not written again, until it moves or is put elsewhere, by however much. */
@@ -412,12 +411,11 @@ TEST(StillSheetsAreNotWritten)
     pose = surface->pose;
     OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
     assert_true(surface->pose > pose);
-    Host_Stop(&host);
 }
 
 TEST(NoSleepBeforeTheEnd)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet;
     int32_t awake = 1, ticks = 0;
     kiriSheetDef def = DefaultSheet();
@@ -430,7 +428,6 @@ TEST(NoSleepBeforeTheEnd)
         assert_true(awake || host.world->sheets.data[0]->seen.fades.fading.count == 0);
     }
     assert_in_range(ticks, 119, 123);
-    Host_Stop(&host);
 }
 
 TEST(DefsThatAreNone)
@@ -447,7 +444,6 @@ TEST(DefsThatAreNone)
         def.paper.popping = wrong[k].popping;
         assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 4, 4, &sheet), KIRI_ERROR_ARGUMENT);
     }
-    Host_Stop(&host);
 }
 
 /* A bent sheet of stiff paper, pushed together between its pins. */
@@ -477,7 +473,7 @@ TEST(BentPaperGainsNoEnergy)
     static const float ratios[2] = { 0.3f, 0.45f };
     uint32_t seed = 77;
     for (int trial = 0; trial < 4; ++trial) {
-        Host host;
+        HOST(host);
         kiriSheet sheet = BentPaper(&host, ratios[trial % 2]);
         for (int cut = 0; cut < 6; ++cut) {
             double angle = RandomBetween(&seed, 0.0, 6.28), x = RandomBetween(&seed, 0.05, 0.25);
@@ -493,6 +489,5 @@ TEST(BentPaperGainsNoEnergy)
                 OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 2));
             }
         }
-        Host_Stop(&host);
     }
 }

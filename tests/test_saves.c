@@ -307,7 +307,7 @@ static void AssertRefused(Host* host, const uint8_t* bytes, int64_t size, uint64
 
 TEST(BytesCutShort)
 {
-    Host host;
+    HOST(host);
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
@@ -320,12 +320,11 @@ TEST(BytesCutShort)
     assert_int_equal(Host_Hash(&host), hash);
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, bytes.size), KIRI_OK);
     free(bytes.data);
-    Host_Stop(&host);
 }
 
 TEST(BitsThatChange)
 {
-    Host host;
+    HOST(host);
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
@@ -336,12 +335,11 @@ TEST(BitsThatChange)
     }
     AssertRefused(&host, (const uint8_t*)"a picture, say, or whatever a host has there instead", 50, hash);
     free(bytes.data);
-    Host_Stop(&host);
 }
 
 TEST(Misuse)
 {
-    Host host;
+    HOST(host);
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
@@ -364,14 +362,13 @@ TEST(Misuse)
     assert_int_equal(Host_Hash(&host), hash);
     free(few);
     free(bytes.data);
-    Host_Stop(&host);
 }
 
 /* Which is said before anything is read: another version may have written the same bytes for other things. */
 TEST(OtherVersions)
 {
     enum { FORMAT = 8, LIBRARY = 12 };
-    Host host;
+    HOST(host);
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
@@ -384,7 +381,6 @@ TEST(OtherVersions)
     }
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, bytes.size), KIRI_OK);
     free(bytes.data);
-    Host_Stop(&host);
 }
 
 /* Writing asks for none; reading fails as a whole. */
@@ -426,7 +422,7 @@ TEST(RefusedMemory)
 /* Snapshots of other builds, saves, and bytes that are cut short are no snapshots. */
 TEST(NoSnapshots)
 {
-    Host host;
+    HOST(host);
     StartSmall(&host);
     Bytes snapshot = Write(host.world, kiriWorld_Snapshot), save = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
@@ -444,7 +440,6 @@ TEST(NoSnapshots)
     OK(kiriWorld_Restore(host.world, snapshot.data, snapshot.size));
     free(snapshot.data);
     free(save.data);
-    Host_Stop(&host);
 }
 
 /* ---- Memory in proportion ---------------------------------------------------------------------------------------- */

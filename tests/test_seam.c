@@ -133,7 +133,6 @@ static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t mode
         assert_true(now.energy < start.energy * (1.0 + 1e-6));
         assert_true(Gap(&host, pair.seam) < 1e-3);
     }
-    Host_Stop(&host);
 }
 
 TEST(Momentum)
@@ -178,7 +177,6 @@ static void Hang(int32_t preset, int32_t framesA, int32_t framesB)
     }
     kiriTotals fallen = World_Totals(host.world, pair.b);
     assert_true(fallen.momentum[2] < -fallen.mass);
-    Host_Stop(&host);
 }
 
 TEST(Sleep)
@@ -212,7 +210,6 @@ TEST(Tube)
         }
     }
     assert_true(Gap(&host, made) < 1e-4);
-    Host_Stop(&host);
 }
 
 /* A sleeve of two panels around an arm that moves at 0.9 m/s: the drawn lips stay together. */
@@ -223,8 +220,7 @@ TEST(Sleeve)
         { 0.0f }, { 0.0f, 0.9f }, { 0.0f, -0.9f }, { 0.0f, 0.0f, 0.9f }, { 0.0f, 0.0f, -0.9f }
     };
     const float lines[2][4] = { { 0.0f, 0.0f, 0.4f, 0.0f }, { 0.0f, 0.2f, 0.4f, 0.2f } };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     kiriSheetDef def = Host_SmallDef();
     kiriSheet panels[2];
@@ -267,7 +263,6 @@ TEST(Sleeve)
         }
     }
     assert_true(most < 1e-3);
-    Host_Stop(&host);
 }
 
 /* Half of a sheet hangs on a hinge: stiffness times angle is the moment of its weight. */
@@ -275,10 +270,9 @@ static void Hinge(int32_t frames, float stiffness)
 {
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const float b = 0.05f, edge[4] = { b, 0.0f, b, b }, other[4] = { 0.0f, 0.0f, 0.0f, b };
-    Host host;
     kiriFrame held[16];
     int32_t count;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 100;
     kiriSheetDef def = Host_SmallDef();
     def.material = (kiriMaterial){ 2e9f, 0.0f, 3e-4f, 800.0f, 5.0f, 0.01f, 0.0f, 0.0f, 0.0f, 0 };
@@ -310,7 +304,6 @@ static void Hinge(int32_t frames, float stiffness)
     }
     OK(kiriSeam_GetStitch(host.world, made, 1, &stitch));
     assert_true(fabs(stitch.angle - 1.0) < 0.05);
-    Host_Stop(&host);
 }
 
 TEST(Hinge)
@@ -326,9 +319,8 @@ TEST(Ring)
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float length = 0.3f, width = 0.03f;
     static const float end[4] = { 0.3f, 0.0f, 0.3f, 0.03f }, start[4] = { 0.0f, 0.0f, 0.0f, 0.03f };
-    Host host;
     float points[2 * FRAMES];
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 100;
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheetDef def = Host_SmallDef();
@@ -371,7 +363,6 @@ TEST(Ring)
     double theory = 0.5 * stiffness * 39.478417604 * width / length;
     double part = (FRAMES - 1.0) / FRAMES; /* the seam has the rest */
     assert_true(fabs(totals.elasticEnergy / (part * theory) - 1.0) < 0.01);
-    Host_Stop(&host);
 }
 
 /* Returns how deep the end of a strip of paper hangs, m: of one piece, or of two that are sewn along it. */
@@ -380,11 +371,10 @@ static double SagOf(int32_t framesA, int32_t framesB)
     enum { WHOLE = 0 };
     const float length = 0.12f, width = framesB == WHOLE ? 0.06f : 0.03f;
     const float upper[4] = { 0.0f, width, length, width }, lower[4] = { 0.0f, 0.0f, length, 0.0f };
-    Host host;
     Pair pair;
     kiriPin clamp;
     kiriPointState end;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 100;
     kiriSheetDef def = Host_SmallDef();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
@@ -407,7 +397,6 @@ static double SagOf(int32_t framesA, int32_t framesB)
         OK(Host_Tick(&host, dt, 2));
     }
     OK(kiriSheet_GetPoint(host.world, pair.a, lower + 2, &end));
-    Host_Stop(&host);
     return -(double)end.position[2];
 }
 
@@ -427,8 +416,7 @@ TEST(Strip)
 TEST(Bag)
 {
     static const float line[8] = { 0.0f, 0.5f, 0.0f, 0.0f, 0.5f, 0.0f, 0.5f, 0.5f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     kiriSheetDef def = Host_SmallDef();
     def.framePoints = NULL;
@@ -468,15 +456,13 @@ TEST(Bag)
         OK(kiriSheet_GetPoint(host.world, panels[1], middle, &b));
         assert_true(Distance(a.position, b.position) > 0.5 * 0.005);
     }
-    Host_Stop(&host);
 }
 
 /* Drops a free ball of 14 times the mass of a bag into it: the panels touch the ball as one island. */
 static void DropBall(float mass, float aside)
 {
     static const float line[8] = { 0.0f, 0.3f, 0.0f, 0.0f, 0.3f, 0.0f, 0.3f, 0.3f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet panels[2];
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefaultSheet();
@@ -519,7 +505,6 @@ static void DropBall(float mass, float aside)
     }
     OK(kiriObstacle_GetState(host.world, ball, &state));
     assert_true(state.position[2] > 0.04f);
-    Host_Stop(&host);
 }
 
 TEST(BagHolds)
@@ -533,8 +518,7 @@ TEST(BagHolds)
    moved them. */
 TEST(ForcesStay)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     Pair pairs[2];
     for (int k = 0; k < 2; ++k) {
@@ -556,7 +540,6 @@ TEST(ForcesStay)
         }
     }
     assert_true(left > 20);
-    Host_Stop(&host);
 }
 
 /* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
@@ -607,7 +590,6 @@ TEST(Pieces)
     OK(kiriWorld_GetSeams(host.world, NULL, 0, &left));
     assert_int_equal(left, 0);
     OK(Host_Tick(&host, dt, 2));
-    Host_Stop(&host);
 }
 
 /* A weak seam opens under the weight of the sheet, and names its stitches in events. */
@@ -634,7 +616,6 @@ TEST(Break)
     assert_true(events > 0);
     assert_int_equal(left, 0);
     assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
-    Host_Stop(&host);
 }
 
 /* Strips of paper, end to end or on each other, are pulled apart by a force that grows. Returns the force at which the
@@ -768,7 +749,6 @@ TEST(Memory)
         call = host.refused > 0 ? call : -2;
         host.failAt = -1;
         OK(Host_Tick(&host, dt, 2));
-        Host_Stop(&host);
     }
 }
 
@@ -787,8 +767,7 @@ TEST(Ranges)
     static const float numbers[] = { 0.0f, FLT_MIN, 1e-3f, 1e4f, FLT_MAX };
     static const float angles[] = { -3.14159f, 0.0f, 1e-20f, 3.14159f };
     for (int i = 0; i < 5 * 4 * 2; ++i) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
         Pair pair = Pair_Make(&host, &def, 4, 5);
         kiriSeamDef seam = SeamDef(pair.b, rightEdge, pair.a, leftEdge, 2);
@@ -801,7 +780,6 @@ TEST(Ranges)
         for (int32_t tick = 0; tick < 4; ++tick) {
             assert_true(Host_Tick(&host, dt, 2) >= 0);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -869,5 +847,4 @@ TEST(Arguments)
     assert_int_equal(kiriDestroySeam(host.world, pair.a), KIRI_ERROR_ID);
     OK(kiriDestroySeam(host.world, pair.seam));
     assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
-    Host_Stop(&host);
 }

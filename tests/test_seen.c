@@ -130,7 +130,6 @@ TEST(AsWrittenAnew)
         }
 
         assert_true(both > TICKS / 4);
-        Host_Stop(&host);
     }
 }
 
@@ -158,7 +157,6 @@ TEST(PartsWakeAlone)
         OK(Host_Tick(&host, dt, 1));
         assert_int_equal(CountAsleep(&host, sheet), pieces - 1 - k);
     }
-    Host_Stop(&host);
 }
 
 /* Share of the area whose in-plane strain exceeds 5 %. */
@@ -250,12 +248,11 @@ TEST(DetailIsHeld)
 {
     static const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     enum { FRAMES = 25, MIDDLE = 12 };
-    Host host;
     kiriPin pins[2];
     kiriFrame frames[FRAMES];
     kiriFrameState start;
     int32_t count;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddCloth(&host, 2, FRAMES, pins);
     OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
     OK(kiriFrame_GetState(host.world, frames[MIDDLE], &start));
@@ -275,7 +272,6 @@ TEST(DetailIsHeld)
             assert_true(fabsf(point.position[2] - to[2]) < 1e-3f);
         }
     }
-    Host_Stop(&host);
 }
 
 /* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */

@@ -44,7 +44,7 @@ static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
 
 TEST(HangingSheetSleeps)
 {
-    Host host;
+    HOST(host);
     kiriPin pins[2];
     float before[75];
     kiriSheet sheet = HangAsleep(&host, pins);
@@ -70,13 +70,12 @@ TEST(HangingSheetSleeps)
     for (int k = 0; k < 75; ++k) {
         assert_true(fabs((double)before[k] - (double)Host_Mesh(&host, sheet).positions[k]) < 2e-3);
     }
-    Host_Stop(&host);
 }
 
 TEST(CutWakes)
 {
     static const float across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };
-    Host host;
+    HOST(host);
     kiriPin pins[2];
     kiriSheet sheet = HangAsleep(&host, pins);
     double height = Host_Totals(&host, sheet).center[2];
@@ -91,7 +90,6 @@ TEST(CutWakes)
     }
     /* 0.42 of it falls for a third of a second, more than 0.2 m in air */
     assert_true(Host_Totals(&host, sheet).center[2] < height - 0.42 * 0.2);
-    Host_Stop(&host);
 }
 
 /* Sheets with a cut that waits for the budget go on sleeping, and wake one after another as their cuts take effect. */
@@ -126,7 +124,6 @@ TEST(WaitingCutDoesNotWake)
     }
     assert_int_equal(commits, SHEETS);
     assert_true(most < SHEETS);
-    Host_Stop(&host);
 }
 
 /* More calls that wake are in test_sleep_pieces.c. */
@@ -169,7 +166,7 @@ static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call cal
 TEST(CallsWake)
 {
     for (int call = 0; call < CALLS; ++call) {
-        Host host;
+        HOST(host);
         kiriPin pins[2];
         kiriSheet sheet = HangAsleep(&host, pins);
         Perform(&host, sheet, pins, (Call)call);
@@ -178,7 +175,6 @@ TEST(CallsWake)
         if (IsAwake(&host, sheet) != (call >= TARGET) || (profile.solverIterations > 0) != (call >= TARGET)) {
             fail_msg("call %d", call);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -186,7 +182,7 @@ TEST(CallsWake)
 TEST(HeldSheetSleeps)
 {
     static const float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    Host host;
+    HOST(host);
     kiriPin pins[2];
     kiriSheet sheet = HangAsleep(&host, pins);
     kiriFrame frames[8];
@@ -203,7 +199,6 @@ TEST(HeldSheetSleeps)
     assert_true(TicksToSleep(&host, sheet, 3000) < 3000);
     OK(kiriFrame_Hold(host.world, frames[0], NULL, NULL));
     assert_true(IsAwake(&host, sheet));
-    Host_Stop(&host);
 }
 
 /* ---- Floor ---- */
@@ -252,7 +247,7 @@ TEST(SheetOnFloorSleeps)
     } cases[] = { { 0.0f, 0.0f, false },  { 1e-5f, 0.0f, false }, { 0.0f, 1e-4f, false },
                   { 0.002f, 0.0f, true }, { 0.0f, 0.01f, true },  { -1.0f, 0.0f, true } };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
-        Host host;
+        HOST(host);
         kiriSheet sheet = LieAsleep(&host);
         for (int k = 0; k < 5; ++k) {
             Touch(&host, sheet, cases[i].floor, cases[i].sway);
@@ -261,14 +256,13 @@ TEST(SheetOnFloorSleeps)
         if (IsAwake(&host, sheet) != cases[i].wakes) {
             fail_msg("case %d", (int)i);
         }
-        Host_Stop(&host);
     }
 }
 
 /* The floor creeps up, each tick by less than what wakes it: it is the floor that it fell asleep on that counts. */
 TEST(CreepingFloorWakes)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet = LieAsleep(&host);
     int tick = 0;
     for (; tick < 100 && !IsAwake(&host, sheet); ++tick) {
@@ -276,7 +270,6 @@ TEST(CreepingFloorWakes)
         Tick(&host);
     }
     assert_true(tick > 5 && tick < 20);
-    Host_Stop(&host);
 }
 
 /* Lets a cloth fall on its edge, which leans by a tilt. Returns the ticks until it sleeps. */
@@ -302,7 +295,6 @@ static int CrumpleSheet(int32_t skinning, float tilt, double* lowest)
             *lowest = fmin(mesh.positions[3 * v + 2], *lowest);
         }
     }
-    Host_Stop(&host);
     return tick;
 }
 

@@ -166,7 +166,6 @@ TEST(Work)
     Tick(&host);
     OK(kiriWorld_GetProfile(host.world, &profile));
     assert_true(profile.solverIterations > 0 && 2 * profile.solverIterations < all);
-    Host_Stop(&host);
 }
 
 /* ---- Waking ---- */
@@ -272,7 +271,7 @@ static void PerformWithPin(Host* host, kiriSheet sheet, Call call)
 TEST(CallsWake)
 {
     for (int call = 0; call < CALLS; ++call) {
-        Host host;
+        HOST(host);
         kiriSheet sheet = StartStrips(&host);
         SleepAll(&host, sheet);
         if (call == PIN || call == PIN_MOVES || call == PIN_GOES) {
@@ -285,14 +284,13 @@ TEST(CallsWake)
         if (Awake(&host, sheet) != expected) {
             fail_msg("call %d: %x are awake", call, Awake(&host, sheet));
         }
-        Host_Stop(&host);
     }
 }
 
 /* Contacts that a piece fell asleep with leave it asleep, whatever others get. */
 TEST(ContactsOfOthers)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet = StartStrips(&host);
     kiriContact contacts[2] = { { .point = -1, .restPoint = { 0.1f, 0.5f }, .normal = { 0, 0, 1 }, .offset = -0.5f },
                                 { .point = -1, .restPoint = { 0.6f, 0.5f }, .normal = { 0, 0, 1 }, .offset = -0.5f } };
@@ -310,7 +308,6 @@ TEST(ContactsOfOthers)
     OK(kiriSheet_SetContacts(host.world, sheet, contacts + 1, 1)); /* the first one's is gone */
     Tick(&host);
     assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 2) | Bit(&host, sheet, 0));
-    Host_Stop(&host);
 }
 
 /* Each corner of a small sheet lies in a groove: two contacts at one point, of one obstacle. Asleep they are told what
@@ -358,7 +355,6 @@ TEST(ContactsOfOnePoint)
         differ += k % 2 && fabs(pushed[k][0] - pushed[k - 1][0]) > 0.01 * weight;
     }
     assert_true(differ > 0);
-    Host_Stop(&host);
 }
 
 /* ---- Cuts ---- */
@@ -369,7 +365,7 @@ TEST(CutWakesItsPiece)
 {
     static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.6f };
     static const float loop[8] = { 0.6f, 0.7f, 0.7f, 0.7f, 0.65f, 0.9f, 0.6f, 0.7f };
-    Host host;
+    HOST(host);
     kiriSheet sheet = StartStrips(&host);
     SleepAll(&host, sheet);
     Host_Cut(&host, sheet, slit, 2);
@@ -382,7 +378,6 @@ TEST(CutWakesItsPiece)
     assert_int_equal(Host_Counts(&host, sheet).pieces, STRIPS + 1);
     assert_int_equal(__builtin_popcount(Awake(&host, sheet)), 2);
     assert_true((Awake(&host, sheet) & Bit(&host, sheet, 2)) != 0);
-    Host_Stop(&host);
 }
 
 /* ---- Obstacles ---- */
@@ -403,7 +398,7 @@ static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
 
 TEST(ObstacleWakesWhatIsNear)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet = StartStrips(&host);
     SleepAll(&host, sheet);
     AddBall(&host, 0.37f, 0.5f, -0.2f, 0.3f);
@@ -419,19 +414,17 @@ TEST(ObstacleWakesWhatIsNear)
         Tick(&host);
     }
     assert_true(PieceOf(&host, sheet, StripAt(&host, sheet, 1)).center[2] > height + 0.05);
-    Host_Stop(&host);
 }
 
 /* Away from under a piece, an obstacle wakes that. */
 TEST(ObstacleGoes)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet = StartStrips(&host);
     kiriObstacle ball = AddBall(&host, 0.37f, 0.5f, -0.032f, 0.0f);
     SleepAll(&host, sheet);
     OK(kiriDestroyObstacle(host.world, ball));
     assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 1));
-    Host_Stop(&host);
 }
 
 /* A ball comes up through the plane of the sheet, while the last strip sleeps or moves. */
@@ -493,7 +486,6 @@ TEST(ObstacleBesideGone)
         } else {
             PutAndTake(&host, sheet, places[place], beside);
         }
-        Host_Stop(&host);
     }
 }
 
@@ -526,7 +518,6 @@ TEST(FloorBearsSleepers)
     Tick(&host);
     OK(kiriObstacle_GetState(host.world, floor, &felt));
     assert_true(fabs(-felt.impulse[2] / (weight * (double)dt) - 1.0) < 0.02 && felt.contacts >= contacts / 2);
-    Host_Stop(&host);
 }
 
 /* What a table bears of strips that sleep follows the length of the tick, and where its centre of mass is: it is moved
@@ -565,7 +556,6 @@ TEST(WhatSleepersPressWith)
         assert_true(fabs(is[2].angularImpulse[k] - turn) < 1e-3 * 1e-4 * fabs(is[0].impulse[2]));
     }
     assert_true(is[0].contacts > 0 && is[1].contacts == is[0].contacts && is[2].contacts == is[0].contacts);
-    Host_Stop(&host);
 }
 
 /* ---- Pieces that touch ---- */
@@ -615,7 +605,6 @@ TEST(PiecesThatTouch)
     Tick(&host);
     Tick(&host);
     assert_int_equal(Awake(&host, sheet) & both, both);
-    Host_Stop(&host);
 }
 
 /* ---- Parts ---- */
@@ -623,7 +612,7 @@ TEST(PiecesThatTouch)
 /* A piece that sleeps sleeps on as a sheet of its own, and so do those that are left. */
 TEST(DetachAsleep)
 {
-    Host host;
+    HOST(host);
     kiriSheet sheet = StartStrips(&host), part;
     int32_t awake;
     SleepAll(&host, sheet);
@@ -639,7 +628,6 @@ TEST(DetachAsleep)
     Tick(&host);
     assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-    Host_Stop(&host);
 }
 
 /* ---- Memory ---- */

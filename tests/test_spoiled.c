@@ -61,7 +61,6 @@ static void CheckRefused(Host* host, const Spoiler* spoiler)
     Host_Validate(&other);
     free(bad.data);
     free(good.data);
-    Host_Stop(&other);
 }
 
 static void CheckAll(Host* host, const Spoiler* spoilers, size_t count)

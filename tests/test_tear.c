@@ -375,7 +375,6 @@ TEST(TrouserPullsWithItsForce)
             Host_Validate(&host);
             assert_true(sum / count > 0.1 && sum / count < 0.75 && most < 2.0);
             assert_true(tip[0] - first > 0.01);
-            Host_Stop(&host);
         }
     }
 }
@@ -424,8 +423,6 @@ TEST(SavesAndSnapshotsGoOn)
             assert_true(Host_Hash(&host) == Host_Hash(&other));
         }
         assert_true(Host_Mesh(&host, t.sheet).vertexCount > vertices); /* it tore on */
-        Host_Stop(&other);
-        Host_Stop(&host);
     }
 }
 
@@ -462,7 +459,6 @@ TEST(TearsWait)
         assert_true(kind == 1 || host.refused > 0);
         FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
         assert_true(tip[0] > 0.06);
-        Host_Stop(&host);
     }
 }
 
@@ -492,7 +488,6 @@ TEST(TearsPart)
         Host_Validate(&host);
     }
     assert_int_equal(told.began, told.ended);
-    Host_Stop(&host);
 }
 
 /* Without toughness a world is the same to the bit, and allocates nothing more. */
@@ -515,7 +510,6 @@ TEST(NothingCostsWithoutToughness)
         hash[k] = Host_Hash(&host);
         calls[k] = host.calls;
         assert_int_equal(Host_Counts(&host, t.sheet).frames, 24);
-        Host_Stop(&host);
     }
     assert_true(hash[0] == hash[1] && calls[0] == calls[1]);
 }
@@ -557,5 +551,4 @@ TEST(TearingIsChecked)
     assert_int_equal(kiriSheet_SetTearing(host.world, affine, &got), KIRI_ERROR_ARGUMENT);
     got.toughness = 0.0f;
     OK(kiriSheet_SetTearing(host.world, affine, &got));
-    Host_Stop(&host);
 }

@@ -268,7 +268,6 @@ static void Meet(double off, double width, bool isUpwards)
     }
     double slower = Host_Totals(&host, sheets[isUpwards ? 1 : 0]).momentum[2] / due;
     assert_true(slower > 0.1); /* it was pushed */
-    Host_Stop(&host);
 }
 
 TEST(MomentumStays)

@@ -74,7 +74,7 @@ static void CheckMomentum(const Host* host, kiriSheet sheet, const double* momen
    velocity. */
 TEST(PiecesTakeTurns)
 {
-    Host host;
+    HOST(host);
     kiriFrame frames[MOST];
     kiriFrameState was[MOST], is[MOST];
     int32_t ticks[MOST] = { 0 }, least = INT32_MAX, most = 0;
@@ -108,13 +108,12 @@ TEST(PiecesTakeTurns)
     assert_true(least >= 8 && most <= least + 1);
     Limit(&host, 0);
     OK(Host_Tick(&host, dt, 2));
-    Host_Stop(&host);
 }
 
 /* Forces are of one tick, also for those that wait in it. */
 TEST(ForcesAreUsedUp)
 {
-    Host host;
+    HOST(host);
     kiriFrame frames[MOST];
     kiriFrameState states[MOST], after[MOST];
     kiriSheet sheet = StartDice(&host, 1);
@@ -132,14 +131,13 @@ TEST(ForcesAreUsedUp)
         assert_true(after[i].velocity[2] < 1.01f * dt);
     }
     assert_in_range(pushed, 10, 15);
-    Host_Stop(&host);
 }
 
 /* Small sheets that come after the dice are moved as well. */
 TEST(SheetsTakeTurns)
 {
     enum { OTHERS = 3 };
-    Host host;
+    HOST(host);
     kiriSheet others[OTHERS];
     int32_t moved[OTHERS] = { 0 }, dice = 0;
     double last[OTHERS + 1] = { 0.0 };
@@ -165,7 +163,6 @@ TEST(SheetsTakeTurns)
         assert_in_range(moved[k], 80 / (OTHERS + 1) - 2, 80 / (OTHERS + 1) + 2);
     }
     assert_in_range(dice, 80 / (OTHERS + 1) - 2, 80 / (OTHERS + 1) + 2);
-    Host_Stop(&host);
 }
 
 static kiriObstacle AddFloor(Host* host)
@@ -199,7 +196,6 @@ static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t c
             Host_Cut(&host, sheet, (float[]){ at, at, at + 0.1f, at - 0.1f }, 2);
         }
     }
-    Host_Stop(&host);
 }
 
 TEST(SeenWhileWaiting)

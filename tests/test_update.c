@@ -387,7 +387,6 @@ TEST(BudgetsThatAreNone)
     assert_int_equal(kiriWorld_SetBudget(host.world, NULL), KIRI_ERROR_ARGUMENT);
     few.triangles = KIRI_LEAST_TRIANGLES;
     OK(kiriWorld_SetBudget(host.world, &few));
-    Host_Stop(&host);
 }
 
 TEST(BudgetFromTime)

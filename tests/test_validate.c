@@ -494,13 +494,12 @@ TEST(SeesQueuesAndIds)
 
 TEST(SeesLostBlocks)
 {
-    Host host;
+    HOST(host);
     kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS, 0);
     kiriBlock** link = sheet->own.blocks->next->link;
     sheet->own.blocks->next->link = &sheet->own.blocks;
     assert_non_null(strstr(Validate_World(host.world), "another list"));
     sheet->own.blocks->next->link = link;
-    Host_Stop(&host);
 }
 
 /* ---- Faults that it found, or that were found with it ---- */
@@ -533,7 +532,6 @@ TEST(PinsWhileTheMeshIsCut)
     while (Host_Tick(&host, 0.01f, 1) == KIRI_PENDING) {
         HoldAllOver(&host, sheet, frames);
     }
-    Host_Stop(&host);
 }
 
 /* Nor after a tick whose work on the cut was refused memory: it goes on in the next. */
@@ -552,7 +550,6 @@ TEST(PinsAfterATickWithoutMemory)
         host.failAt = -1;
         HoldAllOver(&host, sheet, frames);
     }
-    Host_Stop(&host);
 }
 
 /* A rigid piece with a site in each of its cells, all new: there is no room for one more, and to place them again would
@@ -576,5 +573,4 @@ TEST(ResamplingComesToAnEnd)
         result = Host_Tick(&host, 0.01f, 1);
     }
     assert_int_equal(result, KIRI_OK);
-    Host_Stop(&host);
 }

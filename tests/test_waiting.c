@@ -195,7 +195,6 @@ static void RunStarved(int32_t squares, int32_t from, int64_t request)
     assert_int_equal(result, KIRI_OK);
     assert_int_equal(detached, 1);
     assert_int_equal(Host_SheetCount(&host), 2);
-    Host_Stop(&host);
 }
 
 TEST(Starved)

@@ -67,7 +67,6 @@ TEST(LinearBetweenTwoFrames)
                 }
             }
         }
-        Host_Stop(&host);
     }
 }
 
@@ -97,7 +96,6 @@ TEST(WeightsEndAtTheSlit)
     }
     Weights left = WeightsAt(&host, sheet, 0.48, 0.1), right = WeightsAt(&host, sheet, 0.52, 0.1);
     assert_true(WeightOf(&left, frames[0]) - WeightOf(&right, frames[0]) > 0.5);
-    Host_Stop(&host);
 }
 
 /* ---- Random sheets ---- */
@@ -162,7 +160,6 @@ TEST(EasedWeightsFollowLinearOnes)
                 ++all;
             }
         }
-        Host_Stop(&host);
     }
     assert_true(apart > 0.09); /* 3 w^2 - 2 w^3 is up to 0.096 off the line */
     assert_true(10 * near > 9 * all); /* some pairs of points have a lip between them */
@@ -251,7 +248,6 @@ TEST(SurfaceIsTheBlend)
                 }
             }
         }
-        Host_Stop(&host);
     }
     assert_true(3 * checked > all);
 }
@@ -278,6 +274,5 @@ TEST(FramesAreSpread)
             assert_true(share > 0.6 && share < 1.6);
             assert_true(count > 1 || (fabs(f.restPoint[0] - 0.5) < 0.02 && fabs(f.restPoint[1] - 0.35) < 0.02));
         }
-        Host_Stop(&host);
     }
 }
