@@ -61,6 +61,10 @@ var namesResultCode = map[ResultCode]string{
 
 func (v ResultCode) String() string { return namesResultCode[v] }
 
+// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
+// 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes
+// effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual,
+// budget).
 type BudgetLimit int32
 
 const (
@@ -222,15 +226,15 @@ var namesQualityPreset = map[QualityPreset]string{
 
 func (v QualityPreset) String() string { return namesQualityPreset[v] }
 
-// How a sheet deforms.
+// How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.
 type Model int32
 
 const (
-	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.
+	// rigid frames joined by links: paper, foil, stiff cloth
 	ModelLinks Model = 0
-	// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets).
+	// affine frames joined by links: cloth and rubber that stretch inside a region
 	ModelAffine Model = 1
-	// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy).
+	// affine frames, strains at integration points, as in the paper. Thin sheets hardly bend
 	ModelPoints Model = 2
 )
 
@@ -259,13 +263,13 @@ var namesSkinning = map[Skinning]string{
 
 func (v Skinning) String() string { return namesSkinning[v] }
 
-// Integration in time. Both solve one linear system an iteration.
+// Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward Euler.
 type TimeStepping int32
 
 const (
-	// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler.
+	// TR-BDF2, of second order: keeps the energy of motion
 	TimeSteppingSecondOrder TimeStepping = 0
-	// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
+	// backward Euler, of first order: takes energy out of a swing, more in longer steps
 	TimeSteppingEuler TimeStepping = 1
 )
 
@@ -515,10 +519,11 @@ type PaperOptions struct {
 	Popping int32
 	// 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
 	LinearWeights int32
-	// KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
-	// frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to 1048576
+	// KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+	// frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.
 	IntegrationPoints int32
-	// 1 or 2
+	// KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+	// frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.
 	IntegrationOrder int32
 }
 
@@ -568,8 +573,7 @@ type SheetDef struct {
 	CrumbArea float32
 	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness,
-	// at least a 20th of a grid square
+	// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
@@ -611,8 +615,7 @@ type SheetSettings struct {
 	CrumbArea float32
 	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness,
-	// at least a 20th of a grid square
+	// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
@@ -871,8 +874,8 @@ type PinDef struct {
 	Stiffness float32
 	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32
-	// 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass.
-	// If it is destroyed the target stays
+	// 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is
+	// destroyed the target stays
 	Obstacle ObstacleID
 }
 
@@ -895,9 +898,8 @@ type PinState struct {
 	Obstacle ObstacleID
 }
 
-// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
-// stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
-// stitches. It ends with the piece of one of its points (manual, sewing).
+// A seam joins two lines in the material, of two sheets or of one: stitches join points at the same parts of both.
+// Cuts go through a seam, and pieces keep their stitches. A stitch ends with the piece of a point (manual, sewing).
 type SeamDef struct {
 	cookie uint32
 	// of the same model, and not planar
@@ -1915,9 +1917,8 @@ var poolSheetTransform pool[struct {
 	translation [3]float32
 }]
 
-// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
-// of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
-// clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
+// Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar sheet turns
+// about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual, sheets).
 func (s Sheet) Transform(rotation [9]float32, translation [3]float32) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2449,9 +2450,9 @@ var poolWorldBeginBlade pool[struct {
 	blade C.kiriBlade
 }]
 
-// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
-// material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is in
-// a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
+// A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
+// cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0:
+// all.
 func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 	var made0 Blade
 	if err := w.check(); err != nil {
@@ -2473,7 +2474,8 @@ var poolBladeMoveEdge pool[struct {
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-// each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+// blade: its cuts stay, and end where the blade is.
 func (b Blade) MoveEdge(from [3]float32, to [3]float32) error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -2496,7 +2498,8 @@ var poolBladeMoveRay pool[struct {
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-// each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+// blade: its cuts stay, and end where the blade is.
 func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -2513,7 +2516,9 @@ func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) 
 	return nil
 }
 
-// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
+// Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+// blade: its cuts stay, and end where the blade is.
 func (b Blade) End() error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -2782,9 +2787,8 @@ var poolSheetClampLine pool[struct {
 	clamp C.kiriPin
 }]
 
-// Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
-// hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
-// along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2808,9 +2812,8 @@ var poolSheetHingeLine pool[struct {
 	hinge C.kiriPin
 }]
 
-// Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
-// hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
-// along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 func (s Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2834,7 +2837,7 @@ var poolPinSetTarget pool[struct {
 
 // Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 // (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetTarget(target [3]float32) error {
 	if err := p.World.check(); err != nil {
 		return err
@@ -2857,7 +2860,7 @@ var poolPinSetPose pool[struct {
 
 // Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 // (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetPose(target [3]float32, rotation [9]float32) error {
 	if err := p.World.check(); err != nil {
 		return err

@@ -61,6 +61,10 @@ export enum ResultCode {
     ErrorReplay = -11,
 }
 
+/** Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
+ *  30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget decides when a cut takes
+ *  effect; the mesh, grid, regions, weights and sites of frames after all work is done do not depend on it (manual,
+ *  budget). */
 export const LEAST_TRIANGLES: 16;
 
 export const MOST_NOTE_BYTES: 1048576;
@@ -139,13 +143,13 @@ export enum QualityPreset {
     Count = 3,
 }
 
-/** How a sheet deforms. */
+/** How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12. */
 export enum Model {
-    /** Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
+    /** rigid frames joined by links: paper, foil, stiff cloth */
     Links = 0,
-    /** Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets). */
+    /** affine frames joined by links: cloth and rubber that stretch inside a region */
     Affine = 1,
-    /** Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy). */
+    /** affine frames, strains at integration points, as in the paper. Thin sheets hardly bend */
     Points = 2,
 }
 
@@ -157,11 +161,11 @@ export enum Skinning {
     Smooth = 1,
 }
 
-/** Integration in time. Both solve one linear system an iteration. */
+/** Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward Euler. */
 export enum TimeStepping {
-    /** TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler. */
+    /** TR-BDF2, of second order: keeps the energy of motion */
     SecondOrder = 0,
-    /** Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
+    /** backward Euler, of first order: takes energy out of a swing, more in longer steps */
     Euler = 1,
 }
 
@@ -451,11 +455,11 @@ export class PaperOptions {
     popping: boolean;
     /** 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
     linearWeights: boolean;
-    /** KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
-     *  frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
-     *  1048576 */
+    /** KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work. */
     integrationPoints: number;
-    /** 1 or 2 */
+    /** KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work. */
     integrationOrder: number;
 }
 /** What a host gives as PaperOptions: what is left out is 0. */
@@ -466,11 +470,11 @@ export interface PaperOptionsGiven {
     popping?: boolean | number;
     /** 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
     linearWeights?: boolean | number;
-    /** KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
-     *  frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
-     *  1048576 */
+    /** KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work. */
     integrationPoints?: number;
-    /** 1 or 2 */
+    /** KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work. */
     integrationOrder?: number;
 }
 
@@ -522,8 +526,7 @@ export class SheetDef {
     crumbArea: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction: number;
-    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-     *  thickness, at least a 20th of a grid square */
+    /** m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
@@ -600,8 +603,7 @@ export interface SheetDefGiven {
     crumbArea?: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction?: number;
-    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-     *  thickness, at least a 20th of a grid square */
+    /** m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
@@ -645,8 +647,7 @@ export class SheetSettings {
     crumbArea: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction: number;
-    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-     *  thickness, at least a 20th of a grid square */
+    /** m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
@@ -679,8 +680,7 @@ export interface SheetSettingsGiven {
     crumbArea?: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction?: number;
-    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-     *  thickness, at least a 20th of a grid square */
+    /** m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
@@ -967,8 +967,8 @@ export class PinDef {
     stiffness: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce: number;
-    /** 0: none. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If
-     *  it is destroyed the target stays */
+    /** 0: none. The target moves with it; it feels the pin (Obstacle.getState) and yields by its mass. If it is
+     *  destroyed the target stays */
     obstacle: Obstacle | null;
 }
 /** What a host gives as PinDef: what is left out is as the default has it. */
@@ -982,8 +982,8 @@ export interface PinDefGiven {
     stiffness?: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce?: number;
-    /** 0: none. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If
-     *  it is destroyed the target stays */
+    /** 0: none. The target moves with it; it feels the pin (Obstacle.getState) and yields by its mass. If it is
+     *  destroyed the target stays */
     obstacle?: Obstacle | null;
 }
 
@@ -1008,9 +1008,8 @@ export class PinState {
     obstacle: Obstacle | null;
 }
 
-/** A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
- *  stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
- *  stitches. It ends with the piece of one of its points (manual, sewing). */
+/** A seam joins two lines in the material, of two sheets or of one: stitches join points at the same parts of both.
+ *  Cuts go through a seam, and pieces keep their stitches. A stitch ends with the piece of a point (manual, sewing). */
 export class SeamDef {
     cookie: number;
     /** of the same model, and not planar */
@@ -1346,9 +1345,9 @@ export class World {
      *  KIRI_PENDING: some are pending, all in a sheet together. detached[i]: the sheet made of piece of frames[i], 0:
      *  pending. */
     destroyPieces(frames: Frame[]): ResultCode;
-    /** A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in
-     *  the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while
-     *  it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all. */
+    /** A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
+     *  cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet`
+     *  0: all. */
     beginBlade(sheet?: Sheet | null): Blade;
     /** Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is 0.
      *  KIRI_ERROR_ARGUMENT: a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing). */
@@ -1357,7 +1356,7 @@ export class World {
     getSeams(): Seam[];
     /** Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake. */
     createObstacle(def: ObstacleDefGiven): Obstacle;
-    /** Draws the world as after the last tick, by functions of the host. Only reads the world, and takes no memory. */
+    /** Fill the struct with its defaults; draw the world as after the last tick. This only reads, and takes no memory. */
     debugDraw(draw: DebugDrawGiven): ResultCode;
 }
 
@@ -1417,10 +1416,8 @@ export class Sheet {
     isAwake(): boolean;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     wake(): ResultCode;
-    /** Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
-     *  columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
-     *  pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual,
-     *  sheets). */
+    /** Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar sheet
+     *  turns about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual, sheets). */
     transform(rotation: ArrayLike<number>, translation: ArrayLike<number>): ResultCode;
     /** Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
      *  centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
@@ -1480,13 +1477,13 @@ export class Sheet {
     /** Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
      *  outside. */
     createPin(def: PinDefGiven): Pin;
-    /** Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
-     *  hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
-     *  along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
+    /** Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+     *  material. */
     clampLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
-    /** Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
-     *  hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
-     *  along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
+    /** Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+     *  material. */
     hingeLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
     getPins(): Pin[];
@@ -1571,13 +1568,13 @@ export class Pin {
     destroy(): ResultCode;
     /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
      *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT:
-     *  a point. */
+     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
+     *  KIRI_ERROR_ARGUMENT: a point. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
      *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT:
-     *  a point. */
+     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
+     *  KIRI_ERROR_ARGUMENT: a point. */
     setPose(target: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
     /** Sets the force (N) that breaks a pin of any type; 0: it never breaks. */
     setBreakForce(breakForce: number): ResultCode;
@@ -1615,12 +1612,16 @@ export class Blade {
     /** Two that are the same have the same id. */
     readonly id: number;
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
+     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+     *  End the blade: its cuts stay, and end where the blade is. */
     moveEdge(from: ArrayLike<number>, to: ArrayLike<number>): ResultCode;
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
+     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+     *  End the blade: its cuts stay, and end where the blade is. */
     moveRay(origin: ArrayLike<number>, direction: ArrayLike<number>, length: number): ResultCode;
-    /** Ends the blade; its id is stale. Its cuts stay, and end where the blade is. */
+    /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+     *  End the blade: its cuts stay, and end where the blade is. */
     end(): ResultCode;
 }
 

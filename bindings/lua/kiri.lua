@@ -732,7 +732,8 @@ function kiri.getResultText(result)
 end
 
 --- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
---- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
+--- the world and all its content; null is allowed.
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
     C.kiriDefaultWorldDef(def)
@@ -1158,9 +1159,8 @@ function Sheet:wake()
     return result == 1
 end
 
---- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
---- of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
---- clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
+--- Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar sheet
+--- turns about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual, sheets).
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
@@ -1432,9 +1432,9 @@ function Sheet:getTearing(tearing)
     return tearing
 end
 
---- A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
---- material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is
---- in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
+--- A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
+--- cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0:
+--- all.
 function World:beginBlade(sheet)
     local world = self
     local result = C.kiriBeginBlade(world.c, id_of(world, sheet, "Sheet"), out.Blade)
@@ -1443,7 +1443,8 @@ function World:beginBlade(sheet)
 end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 function Blade:moveEdge(from, to)
     local world = self.world
     local result = C.kiriBlade_MoveEdge(world.c, self.id, vector(1, from, 3), vector(2, to, 3))
@@ -1452,7 +1453,8 @@ function Blade:moveEdge(from, to)
 end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 function Blade:moveRay(origin, direction, length)
     local world = self.world
     local result = C.kiriBlade_MoveRay(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), length)
@@ -1460,7 +1462,9 @@ function Blade:moveRay(origin, direction, length)
     return result == 1
 end
 
---- Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 function Blade:finish()
     local world = self.world
     local result = C.kiriBlade_End(world.c, self.id)
@@ -1582,9 +1586,8 @@ function Pin:destroy()
     return result == 1
 end
 
---- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
---- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
---- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1592,9 +1595,8 @@ function Sheet:clampLine(from, to)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
---- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
---- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1604,7 +1606,7 @@ end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
@@ -1614,7 +1616,7 @@ end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 function Pin:setPose(target, rotation)
     local world = self.world
     local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))
@@ -1815,7 +1817,7 @@ function Sheet:getReach(dt, lower, upper)
     return lower, upper
 end
 
---- Fills it with its defaults, and stamps it.
+--- Fill the struct with its defaults; draw the world as after the last tick. This only reads, and takes no memory.
 function kiri.defaultDebugDraw(draw)
     draw = draw or new.kiriDebugDraw()
     C.kiriDefaultDebugDraw(draw)

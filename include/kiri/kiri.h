@@ -22,12 +22,10 @@
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
-#if defined(KIRI_SHARED) && defined(_WIN32)
-#ifdef KIRI_BUILD
+#if defined(KIRI_SHARED) && defined(_WIN32) && defined(KIRI_BUILD)
 #define KIRI_API __declspec(dllexport)
-#else
+#elif defined(KIRI_SHARED) && defined(_WIN32)
 #define KIRI_API __declspec(dllimport)
-#endif
 #elif defined(__GNUC__)
 #define KIRI_API __attribute__((visibility("default")))
 #else
@@ -94,7 +92,6 @@ typedef struct kiriBudget {
     int32_t samples;    /* vertices and collision points with new weights, and the cost of the commit, paid before it */
     int32_t iterations; /* linear systems, 30 to 60 us each; a large one counts as several (manual, budget) */
 } kiriBudget;
-
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 
 /* Settings of a world: gravity, budget, and functions of the host. */
@@ -115,11 +112,10 @@ typedef struct kiriWorldDef {
 } kiriWorldDef;
 
 /* Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
-   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
+   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
+   the world and all its content; null is allowed. */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
-
-/* Frees the world and all its content. Null is allowed. */
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
@@ -315,14 +311,11 @@ enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_
 /* Gets the numbers of a preset, KIRI_QUALITY_... */
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 
-/* How a sheet deforms. */
+/* How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12. */
 enum kiriModel {
-    /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
-    KIRI_MODEL_LINKS = 0,
-    /* Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets). */
-    KIRI_MODEL_AFFINE = 1,
-    /* Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy). */
-    KIRI_MODEL_POINTS = 2
+    KIRI_MODEL_LINKS = 0,  /* rigid frames joined by links: paper, foil, stiff cloth */
+    KIRI_MODEL_AFFINE = 1, /* affine frames joined by links: cloth and rubber that stretch inside a region */
+    KIRI_MODEL_POINTS = 2  /* affine frames, strains at integration points, as in the paper. Thin sheets hardly bend */
 };
 
 /* The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
@@ -331,12 +324,10 @@ enum kiriSkinning {
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
 };
 
-/* Integration in time. Both solve one linear system an iteration. */
+/* Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward Euler. */
 enum kiriTimeStepping {
-    /* TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler. */
-    KIRI_TIME_STEPPING_SECOND_ORDER = 0,
-    /* Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
-    KIRI_TIME_STEPPING_EULER = 1
+    KIRI_TIME_STEPPING_SECOND_ORDER = 0, /* TR-BDF2, of second order: keeps the energy of motion */
+    KIRI_TIME_STEPPING_EULER = 1 /* backward Euler, of first order: takes energy out of a swing, more in longer steps */
 };
 
 /* Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder. */
@@ -344,10 +335,9 @@ typedef struct kiriPaperOptions {
     int32_t fromScratch;   /* 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits */
     int32_t popping;       /* 1: only new frames take their motion from the surface: it jumps, momentum is not kept */
     int32_t linearWeights; /* 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
-    /* KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
-       frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). */
-    int32_t integrationPoints; /* 0 to 1048576 */
-    int32_t integrationOrder;  /* 1 or 2 */
+    /* KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+       frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work. */
+    int32_t integrationPoints, integrationOrder;
 } kiriPaperOptions;
 
 /* A sheet: its rest shape, start, material, and computation. */
@@ -379,8 +369,7 @@ typedef struct kiriSheetDef {
     float rigidArea;   /* default 0 */
     float crumbArea;   /* m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     float friction; /* of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
-    float contactThickness; /* m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default):
-                               the material's thickness, at least a 20th of a grid square */
+    float contactThickness; /* m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     uint32_t groups;        /* obstacles and sheets touch if they share a set bit. Default: all */
     /* touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
        layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
@@ -555,9 +544,8 @@ KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sh
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
-/* Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns of
-   `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins, clamps,
-   hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets). */
+/* Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar sheet turns
+   about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual, sheets). */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -692,18 +680,16 @@ KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet
 
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 
-/* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
-   material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is in a
-   sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all. */
+/* A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and cuts
+   on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0: all. */
 KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 
 /* Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-   each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
+   each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+   blade: its cuts stay, and end where the blade is. */
 KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
                                       const float direction[3], float length);
-
-/* Ends the blade; its id is stale. Its cuts stay, and end where the blade is. */
 KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 
 /* ---- Frame ------------------------------------------------------------------------------------------------------ */
@@ -777,9 +763,8 @@ typedef struct kiriPinDef {
     float target[3];    /* m, world */
     float stiffness;    /* N/m; 0: ten times Young's modulus times thickness */
     float breakForce;   /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
-    kiriObstacle
-        obstacle; /* 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
-                              yields by its mass. If it is destroyed the target stays */
+    kiriObstacle obstacle; /* 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields
+                              by its mass. If it is destroyed the target stays */
 } kiriPinDef;
 
 /* Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside. */
@@ -787,9 +772,8 @@ KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
-/* Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
-   hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
-   along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material. */
+/* Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material, as
+   a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
@@ -797,7 +781,7 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
 
 /* Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
    (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-   moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point. */
+   moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
 
@@ -829,9 +813,8 @@ KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, k
 
 /* ---- Seam ------------------------------------------------------------------------------------------------------- */
 
-/* A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
-   stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
-   stitches. It ends with the piece of one of its points (manual, sewing). */
+/* A seam joins two lines in the material, of two sheets or of one: stitches join points at the same parts of both. Cuts
+   go through a seam, and pieces keep their stitches. A stitch ends with the piece of a point (manual, sewing). */
 typedef struct kiriSeamDef {
     uint32_t cookie;
     kiriSheet sheetA, sheetB; /* of the same model, and not planar */
@@ -1006,10 +989,8 @@ typedef struct kiriDebugDraw {
     void* user;            /* passed to these functions */
 } kiriDebugDraw;
 
-/* Fills it with its defaults, and stamps it. */
+/* Fill the struct with its defaults; draw the world as after the last tick. This only reads, and takes no memory. */
 KIRI_API void kiriDefaultDebugDraw(kiriDebugDraw* draw);
-
-/* Draws the world as after the last tick, by functions of the host. Only reads the world, and takes no memory. */
 KIRI_API kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
 
 #ifdef __cplusplus

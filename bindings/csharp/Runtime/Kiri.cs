@@ -740,9 +740,8 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is
-        /// in the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least
-        /// while it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting).
+        /// <summary>A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer,
+        /// and cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting).
         /// `sheet` 0: all.</summary>
         public Blade BeginBlade(SheetId sheet)
         {
@@ -1053,10 +1052,9 @@ namespace Kiri
             World.Check(Native.kiriSheet_Wake(World.Handle, Id));
         }
 
-        /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
-        /// columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
-        /// Targets of pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts
-        /// stay (manual, sheets).</summary>
+        /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar
+        /// sheet turns about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual,
+        /// sheets).</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
             World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
@@ -1256,9 +1254,9 @@ namespace Kiri
             return new Pin(World, pinValue);
         }
 
-        /// <summary>Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
-        /// does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
-        /// to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.</summary>
+        /// <summary>Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+        /// material.</summary>
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
@@ -1266,9 +1264,9 @@ namespace Kiri
             return new Pin(World, clampValue);
         }
 
-        /// <summary>Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
-        /// does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
-        /// to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.</summary>
+        /// <summary>Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+        /// material.</summary>
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
@@ -1474,7 +1472,7 @@ namespace Kiri
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
         /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetTarget(Float3 target)
         {
@@ -1483,7 +1481,7 @@ namespace Kiri
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
         /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetPose(Float3 target, Float9 rotation)
         {
@@ -1563,7 +1561,7 @@ namespace Kiri
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        /// way.</summary>
+        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
         public void MoveEdge(Float3 from, Float3 to)
         {
             World.Check(Native.kiriBlade_MoveEdge(World.Handle, Id, (float*)&from, (float*)&to));
@@ -1571,13 +1569,15 @@ namespace Kiri
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        /// way.</summary>
+        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
         public void MoveRay(Float3 origin, Float3 direction, float length)
         {
             World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length));
         }
 
-        /// <summary>Ends the blade; its id is stale. Its cuts stay, and end where the blade is.</summary>
+        /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
         public void End()
         {
             World.Check(Native.kiriBlade_End(World.Handle, Id));

@@ -444,14 +444,14 @@ namespace Kiri
         Count = 3,
     }
 
-    /// <summary>How a sheet deforms.</summary>
+    /// <summary>How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.</summary>
     public enum Model
     {
-        /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.</summary>
+        /// <summary>rigid frames joined by links: paper, foil, stiff cloth</summary>
         Links = 0,
-        /// <summary>Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns (manual, sheets).</summary>
+        /// <summary>affine frames joined by links: cloth and rubber that stretch inside a region</summary>
         Affine = 1,
-        /// <summary>Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend (accuracy).</summary>
+        /// <summary>affine frames, strains at integration points, as in the paper. Thin sheets hardly bend</summary>
         Points = 2,
     }
 
@@ -464,12 +464,12 @@ namespace Kiri
         Smooth = 1,
     }
 
-    /// <summary>Integration in time. Both solve one linear system an iteration.</summary>
+    /// <summary>Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward Euler.</summary>
     public enum TimeStepping
     {
-        /// <summary>TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take backward Euler.</summary>
+        /// <summary>TR-BDF2, of second order: keeps the energy of motion</summary>
         SecondOrder = 0,
-        /// <summary>Backward Euler, of first order: takes energy out of a swing, more in longer steps.</summary>
+        /// <summary>backward Euler, of first order: takes energy out of a swing, more in longer steps</summary>
         Euler = 1,
     }
 
@@ -725,11 +725,11 @@ namespace Kiri
         public Flag Popping;
         /// <summary>1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS</summary>
         public Flag LinearWeights;
-        /// <summary>KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each
-        /// of frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
-        /// 1048576</summary>
+        /// <summary>KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+        /// frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.</summary>
         public int IntegrationPoints;
-        /// <summary>1 or 2</summary>
+        /// <summary>KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of
+        /// frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.</summary>
         public int IntegrationOrder;
     }
 
@@ -783,8 +783,7 @@ namespace Kiri
         public float CrumbArea;
         /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-        /// thickness, at least a 20th of a grid square</summary>
+        /// <summary>m between sheets, half to obstacles. 0: the material's, at least a 20th of a square</summary>
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
@@ -841,8 +840,7 @@ namespace Kiri
         public float CrumbArea;
         /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
-        /// thickness, at least a 20th of a grid square</summary>
+        /// <summary>m between sheets, half to obstacles. 0: the material's, at least a 20th of a square</summary>
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
@@ -1137,8 +1135,8 @@ namespace Kiri
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;
-        /// <summary>0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its
-        /// mass. If it is destroyed the target stays</summary>
+        /// <summary>0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is
+        /// destroyed the target stays</summary>
         public ObstacleId Obstacle;
 
         /// <summary>With the defaults of the library.</summary>
@@ -1174,9 +1172,9 @@ namespace Kiri
         public ObstacleId Obstacle;
     }
 
-    /// <summary>A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
-    /// stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
-    /// stitches. It ends with the piece of one of its points (manual, sewing).</summary>
+    /// <summary>A seam joins two lines in the material, of two sheets or of one: stitches join points at the same parts of both.
+    /// Cuts go through a seam, and pieces keep their stitches. A stitch ends with the piece of a point (manual,
+    /// sewing).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct SeamDef
     {

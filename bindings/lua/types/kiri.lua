@@ -178,8 +178,8 @@ kiri.DRAW_ALL = 2047
 ---@field fromScratch? boolean|integer # 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
 ---@field popping? boolean|integer # 1: only new frames take their motion from the surface: it jumps, momentum is not kept
 ---@field linearWeights? boolean|integer # 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
----@field integrationPoints? integer # KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to 1048576
----@field integrationOrder? integer # 1 or 2
+---@field integrationPoints? integer # KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.
+---@field integrationOrder? integer # KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four for each of frameCount. Strain around a point: of order 1, constant (default), or 2, linear: four times the work.
 
 --- A sheet: its rest shape, start, material, and computation.
 ---@class kiri.SheetDef
@@ -205,7 +205,7 @@ kiri.DRAW_ALL = 2047
 ---@field rigidArea? number # default 0
 ---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
----@field contactThickness? number # m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness, at least a 20th of a grid square
+---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
 ---@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
@@ -227,7 +227,7 @@ kiri.DRAW_ALL = 2047
 ---@field maxFrames? integer # re-sampling stops here; default 256
 ---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
----@field contactThickness? number # m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness, at least a 20th of a grid square
+---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
 ---@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
@@ -389,7 +389,7 @@ kiri.DRAW_ALL = 2047
 ---@field target? number[]|ffi.cdata* # m, world
 ---@field stiffness? number # N/m; 0: ten times Young's modulus times thickness
 ---@field breakForce? number # N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
----@field obstacle? kiri.Obstacle # 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
+---@field obstacle? kiri.Obstacle # 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
 
 --- Type and target of a pin.
 ---@class kiri.PinState
@@ -402,9 +402,8 @@ kiri.DRAW_ALL = 2047
 ---@field breakForce? number # N, or 0
 ---@field obstacle? kiri.Obstacle # that the target moves with; 0: none
 
---- A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the same parts, and
---- stitches join these points. A stitch belongs to its two points: cuts go through a seam, and pieces keep their
---- stitches. It ends with the piece of one of its points (manual, sewing).
+--- A seam joins two lines in the material, of two sheets or of one: stitches join points at the same parts of both.
+--- Cuts go through a seam, and pieces keep their stitches. A stitch ends with the piece of a point (manual, sewing).
 ---@class kiri.SeamDef
 ---@field cookie? integer
 ---@field sheetA? kiri.Sheet # of the same model, and not planar
@@ -594,7 +593,8 @@ function kiri.getResultName(result) end
 function kiri.getResultText(result) end
 
 --- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
---- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
+--- the world and all its content; null is allowed.
 ---@param def? kiri.WorldDef
 ---@return kiri.WorldDef
 function kiri.defaultWorldDef(def) end
@@ -890,9 +890,8 @@ function Sheet:isAwake() end
 ---@return boolean # work is left for later ticks
 function Sheet:wake() end
 
---- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The columns
---- of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of pins,
---- clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts stay (manual, sheets).
+--- Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar sheet
+--- turns about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual, sheets).
 ---@param rotation number[]|ffi.cdata*
 ---@param translation number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
@@ -1073,29 +1072,33 @@ function Sheet:setTearing(tearing) end
 ---@return kiri.Tearing
 function Sheet:getTearing(tearing) end
 
---- A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is in the
---- material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least while it is
---- in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting). `sheet` 0: all.
+--- A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
+--- cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0:
+--- all.
 ---@param sheet? kiri.Sheet
 ---@return kiri.Blade
 function World:beginBlade(sheet) end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Blade:moveEdge(from, to) end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param length number
 ---@return boolean # work is left for later ticks
 function Blade:moveRay(origin, direction, length) end
 
---- Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
+--- blade: its cuts stay, and end where the blade is.
 ---@return boolean # work is left for later ticks
 function Blade:finish() end
 
@@ -1178,17 +1181,15 @@ function Sheet:createPin(def) end
 ---@return boolean # work is left for later ticks
 function Pin:destroy() end
 
---- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
---- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
---- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin
 function Sheet:clampLine(from, to) end
 
---- Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice does; a
---- hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled to it. A line
---- along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin
@@ -1196,14 +1197,14 @@ function Sheet:hingeLine(from, to) end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Pin:setTarget(target) end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@param rotation number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
@@ -1331,7 +1332,7 @@ function Obstacle:getState(state) end
 ---@return ffi.cdata*
 function Sheet:getReach(dt, lower, upper) end
 
---- Fills it with its defaults, and stamps it.
+--- Fill the struct with its defaults; draw the world as after the last tick. This only reads, and takes no memory.
 ---@param draw? kiri.DebugDraw
 ---@return kiri.DebugDraw
 function kiri.defaultDebugDraw(draw) end

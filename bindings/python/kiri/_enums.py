@@ -20,6 +20,10 @@ class ResultCode(_enum.IntEnum):
 
 
 class BudgetLimit(_enum.IntEnum):
+    """Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one
+    allowance: using 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The budget
+    decides when a cut takes effect; the mesh, grid, regions, weights and sites of frames after all work is done
+    do not depend on it (manual, budget)."""
     TRIANGLES = 16
 
 
@@ -79,7 +83,7 @@ class QualityPreset(_enum.IntEnum):
 
 
 class Model(_enum.IntEnum):
-    """How a sheet deforms."""
+    """How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12."""
     LINKS = 0
     AFFINE = 1
     POINTS = 2
@@ -92,7 +96,8 @@ class Skinning(_enum.IntEnum):
 
 
 class TimeStepping(_enum.IntEnum):
-    """Integration in time. Both solve one linear system an iteration."""
+    """Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward
+    Euler."""
     SECOND_ORDER = 0
     EULER = 1
 

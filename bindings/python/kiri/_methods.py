@@ -171,9 +171,8 @@ class World:
         return self.call('kiriWorld_DestroyPieces', core.ffi.new('kiriFrame[]', ids), len(ids))
 
     def begin_blade(self, sheet: Optional[kiri.Sheet] = None) -> kiri.Blade:
-        """A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers where it is
-        in the material of each layer, and cuts on from there, whatever the sheet did. Move it once a tick at least
-        while it is in a sheet. Each layer has a cut, which KIRI_EVENT_CUT_FINISHED reports (manual, cutting).
+        """A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer,
+        and cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting).
         `sheet` 0: all.
         """
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
@@ -272,10 +271,9 @@ class Sheet:
         return self.world.call('kiriSheet_Wake', self.id)
 
     def transform(self, rotation: Numbers, translation: Numbers) -> int:
-        """Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and it wakes. The
-        columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
-        Targets of pins, clamps, hinges and holds move along, but for pins on obstacles. Pending loads and contacts
-        stay (manual, sheets).
+        """Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar
+        sheet turns about its normal only. Targets of pins and holds move along, but for pins on obstacles (manual,
+        sheets).
         """
         return self.world.call('kiriSheet_Transform', self.id, core.vector(rotation, 9), core.vector(translation, 3))
 
@@ -395,16 +393,16 @@ class Sheet:
         return self.world.call('kiriSheet_SetWind', self.id, structure)
 
     def clamp_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
-        """Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
-        does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
-        to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+        """Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+        material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_ClampLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
     def hinge_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
-        """Hold a straight line of the rest plane. A clamp holds the place and direction of its material, as a vice
-        does; a hinge only the place. The line keeps its rest length: bent material and separate pieces are pulled
-        to it. A line along a cut holds both lips, beside it one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+        """Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
+        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
+        material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_HingeLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
@@ -531,7 +529,7 @@ class Pin:
     def set_target(self, target: Numbers) -> int:
         """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
         KIRI_ERROR_ARGUMENT: a point.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
@@ -539,7 +537,7 @@ class Pin:
     def set_pose(self, target: Numbers, rotation: Numbers) -> int:
         """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface.
+        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
         KIRI_ERROR_ARGUMENT: a point.
         """
         return self.world.call('kiriPin_SetPose', self.id, core.vector(target, 3), core.vector(rotation, 9))
@@ -600,19 +598,22 @@ class Blade:
     def move_edge(self, start: Numbers, end: Numbers) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        way.
+        way. End the blade: its cuts stay, and end where the blade is.
         """
         return self.world.call('kiriBlade_MoveEdge', self.id, core.vector(start, 3), core.vector(end, 3))
 
     def move_ray(self, origin: Numbers, direction: Numbers, length: float) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        way.
+        way. End the blade: its cuts stay, and end where the blade is.
         """
         return self.world.call('kiriBlade_MoveRay', self.id, core.vector(origin, 3), core.vector(direction, 3), length)
 
     def end(self) -> int:
-        """Ends the blade; its id is stale. Its cuts stay, and end where the blade is."""
+        """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        way. End the blade: its cuts stay, and end where the blade is.
+        """
         return self.world.call('kiriBlade_End', self.id)
 
 

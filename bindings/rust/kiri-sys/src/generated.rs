@@ -113,14 +113,11 @@ pub const KIRI_QUALITY_BALANCED: i32 = 1;
 pub const KIRI_QUALITY_ACCURATE: i32 = 2;
 pub const KIRI_QUALITY_COUNT: i32 = 3;
 
-/// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
-/// neighbours.
+/// rigid frames joined by links: paper, foil, stiff cloth
 pub const KIRI_MODEL_LINKS: i32 = 0;
-/// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns
-/// (manual, sheets).
+/// affine frames joined by links: cloth and rubber that stretch inside a region
 pub const KIRI_MODEL_AFFINE: i32 = 1;
-/// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend
-/// (accuracy).
+/// affine frames, strains at integration points, as in the paper. Thin sheets hardly bend
 pub const KIRI_MODEL_POINTS: i32 = 2;
 
 /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
@@ -128,10 +125,9 @@ pub const KIRI_SKINNING_LINEAR: i32 = 0;
 /// each carries a patch that bends towards its neighbours: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
-/// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take
-/// backward Euler.
+/// TR-BDF2, of second order: keeps the energy of motion
 pub const KIRI_TIME_STEPPING_SECOND_ORDER: i32 = 0;
-/// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
+/// backward Euler, of first order: takes energy out of a swing, more in longer steps
 pub const KIRI_TIME_STEPPING_EULER: i32 = 1;
 
 pub const KIRI_PIN_POINT: i32 = 0;
@@ -408,11 +404,13 @@ pub struct kiriPaperOptions {
     pub popping: i32,
     /// 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
     pub linearWeights: i32,
-    /// KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0:
-    /// four for each of frameCount. Strain around a point is constant (order 1, default) or linear
-    /// (2: four times the work). 0 to 1048576
+    /// KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four
+    /// for each of frameCount. Strain around a point: of order 1, constant (default), or 2, linear:
+    /// four times the work.
     pub integrationPoints: i32,
-    /// 1 or 2
+    /// KIRI_MODEL_POINTS: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four
+    /// for each of frameCount. Strain around a point: of order 1, constant (default), or 2, linear:
+    /// four times the work.
     pub integrationOrder: i32,
 }
 
@@ -470,8 +468,7 @@ pub struct kiriSheetDef {
     pub crumbArea: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
-    /// material's thickness, at least a 20th of a grid square
+    /// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
@@ -517,8 +514,7 @@ pub struct kiriSheetSettings {
     pub crumbArea: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
-    /// material's thickness, at least a 20th of a grid square
+    /// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
@@ -820,8 +816,8 @@ pub struct kiriPinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
-    /// 0: none. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState)
-    /// and yields by its mass. If it is destroyed the target stays
+    /// 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by
+    /// its mass. If it is destroyed the target stays
     pub obstacle: kiriObstacle,
 }
 
@@ -846,10 +842,9 @@ pub struct kiriPinState {
     pub obstacle: kiriObstacle,
 }
 
-/// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the
-/// same parts, and stitches join these points. A stitch belongs to its two points: cuts go through
-/// a seam, and pieces keep their stitches. It ends with the piece of one of its points (manual,
-/// sewing).
+/// A seam joins two lines in the material, of two sheets or of one: stitches join points at the
+/// same parts of both. Cuts go through a seam, and pieces keep their stitches. A stitch ends with
+/// the piece of a point (manual, sewing).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSeamDef {
@@ -1042,13 +1037,15 @@ unsafe extern "C" {
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
     /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
     /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
-    /// operations (manual, budget).
+    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
     /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
     /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
-    /// operations (manual, budget).
+    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
-    /// Frees the world and all its content. Null is allowed.
+    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
+    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
+    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
@@ -1202,10 +1199,9 @@ unsafe extern "C" {
     /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
     /// kiriSheet_Wake wakes all.
     pub fn kiriSheet_Wake(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
-    /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
-    /// it wakes. The columns of \`rotation\` are the images of the world's axes; a planar sheet
-    /// turns about its normal only. Targets of pins, clamps, hinges and holds move along, but for
-    /// pins on obstacles. Pending loads and contacts stay (manual, sheets).
+    /// Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it
+    /// wakes. A planar sheet turns about its normal only. Targets of pins and holds move along, but
+    /// for pins on obstacles (manual, sheets).
     pub fn kiriSheet_Transform(world: *mut kiriWorld, sheet: kiriSheet, rotation: *const f32, translation: *const f32) -> kiriResult;
     /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it:
     /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
@@ -1308,20 +1304,24 @@ unsafe extern "C" {
     /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
     /// than KIRI_MODEL_LINKS.
     pub fn kiriSheet_GetTearing(world: *const kiriWorld, sheet: kiriSheet, tearing: *mut kiriTearing) -> kiriResult;
-    /// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It
-    /// remembers where it is in the material of each layer, and cuts on from there, whatever the
-    /// sheet did. Move it once a tick at least while it is in a sheet. Each layer has a cut, which
-    /// KIRI_EVENT_CUT_FINISHED reports (manual, cutting). \`sheet\` 0: all.
+    /// A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material
+    /// of each layer, and cuts on from there. Move it once a tick while it is in a sheet. Each
+    /// layer has a cut (manual, cutting). \`sheet\` 0: all.
     pub fn kiriBeginBlade(world: *mut kiriWorld, sheet: kiriSheet, blade: *mut kiriBlade) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
     /// ray that a camera casts; each end goes straight. The first call only says where it begins.
-    /// An end inside cuts along its own way.
+    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
+    /// is.
     pub fn kiriBlade_MoveEdge(world: *mut kiriWorld, blade: kiriBlade, from: *const f32, to: *const f32) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
     /// ray that a camera casts; each end goes straight. The first call only says where it begins.
-    /// An end inside cuts along its own way.
+    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
+    /// is.
     pub fn kiriBlade_MoveRay(world: *mut kiriWorld, blade: kiriBlade, origin: *const f32, direction: *const f32, length: f32) -> kiriResult;
-    /// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
+    /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
+    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
+    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
+    /// is.
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;
@@ -1364,25 +1364,23 @@ unsafe extern "C" {
     /// Fill the def with its defaults; pin a point; destroy any pin. On failure \*pin is 0.
     /// KIRI_ERROR_ARGUMENT: outside.
     pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
-    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
-    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
-    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
-    /// one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+    /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
+    /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
+    /// KIRI_ERROR_ARGUMENT: equal ends, or no material.
     pub fn kiriSheet_ClampLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, clamp: *mut kiriPin) -> kiriResult;
-    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
-    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
-    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
-    /// one. KIRI_ERROR_ARGUMENT: equal ends, or no material.
+    /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
+    /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
+    /// KIRI_ERROR_ARGUMENT: equal ends, or no material.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
-    /// holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+    /// holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
-    /// holds the visible surface. KIRI_ERROR_ARGUMENT: a point.
+    /// holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetPose(world: *mut kiriWorld, pin: kiriPin, target: *const f32, rotation: *const f32) -> kiriResult;
     /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn kiriPin_SetBreakForce(world: *mut kiriWorld, pin: kiriPin, breakForce: f32) -> kiriResult;
@@ -1453,10 +1451,11 @@ unsafe extern "C" {
     /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s). For moving
     /// obstacles add their way.
     pub fn kiriSheet_GetReach(world: *const kiriWorld, sheet: kiriSheet, dt: f32, lower: *mut f32, upper: *mut f32) -> kiriResult;
-    /// Fills it with its defaults, and stamps it.
+    /// Fill the struct with its defaults; draw the world as after the last tick. This only reads,
+    /// and takes no memory.
     pub fn kiriDefaultDebugDraw(draw: *mut kiriDebugDraw);
-    /// Draws the world as after the last tick, by functions of the host. Only reads the world, and
-    /// takes no memory.
+    /// Fill the struct with its defaults; draw the world as after the last tick. This only reads,
+    /// and takes no memory.
     pub fn kiriWorld_DebugDraw(world: *const kiriWorld, draw: *const kiriDebugDraw) -> kiriResult;
 }
 

@@ -416,19 +416,16 @@ impl QualityPreset {
     }
 }
 
-/// How a sheet deforms.
+/// How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Model {
-    /// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
-    /// neighbours.
+    /// rigid frames joined by links: paper, foil, stiff cloth
     Links = 0,
-    /// Affine frames joined by links: cloth and rubber that stretch inside a region. 12 unknowns
-    /// (manual, sheets).
+    /// affine frames joined by links: cloth and rubber that stretch inside a region
     Affine = 1,
-    /// Affine frames, strains at integration points: the paper's scheme. Thin sheets hardly bend
-    /// (accuracy).
+    /// affine frames, strains at integration points, as in the paper. Thin sheets hardly bend
     Points = 2,
 }
 
@@ -480,15 +477,15 @@ impl Skinning {
     }
 }
 
-/// Integration in time. Both solve one linear system an iteration.
+/// Integration in time, with one linear system an iteration. Steps with contacts or new pins take
+/// backward Euler.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TimeStepping {
-    /// TR-BDF2, of second order: keeps the energy of motion. Steps with contacts or new pins take
-    /// backward Euler.
+    /// TR-BDF2, of second order: keeps the energy of motion
     SecondOrder = 0,
-    /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
+    /// backward Euler, of first order: takes energy out of a swing, more in longer steps
     Euler = 1,
 }
 
@@ -838,11 +835,13 @@ pub struct PaperOptions {
     pub popping: bool,
     /// 1: weights are linear between frames: a kink at each; always so with [`Model::Points`]
     pub linear_weights: bool,
-    /// [`Model::Points`] only: points spread evenly over the sheet, one in every piece at least; 0:
-    /// four for each of `frame_count`. Strain around a point is constant (order 1, default) or
-    /// linear (2: four times the work). 0 to 1048576
+    /// [`Model::Points`]: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four
+    /// for each of `frame_count`. Strain around a point: of order 1, constant (default), or 2,
+    /// linear: four times the work.
     pub integration_points: i32,
-    /// 1 or 2
+    /// [`Model::Points`]: 0 to 1048576 points, spread evenly, one in every piece at least; 0: four
+    /// for each of `frame_count`. Strain around a point: of order 1, constant (default), or 2,
+    /// linear: four times the work.
     pub integration_order: i32,
 }
 
@@ -921,8 +920,7 @@ pub struct SheetDef<'a> {
     pub crumb_area: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
-    /// material's thickness, at least a 20th of a grid square
+    /// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
@@ -1068,8 +1066,7 @@ pub struct SheetSettings {
     pub crumb_area: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
-    /// material's thickness, at least a 20th of a grid square
+    /// m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
@@ -1744,8 +1741,8 @@ pub struct PinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
-    /// 0: none. The target moves with this obstacle, which feels the pin ([`Obstacle::state`]) and
-    /// yields by its mass. If it is destroyed the target stays
+    /// 0: none. The target moves with it; it feels the pin ([`Obstacle::state`]) and yields by its
+    /// mass. If it is destroyed the target stays
     pub obstacle: Option<Obstacle>,
 }
 
@@ -1824,10 +1821,9 @@ impl PinState {
     }
 }
 
-/// A seam joins two lines in the material, of two sheets or of one. Both lines are divided into the
-/// same parts, and stitches join these points. A stitch belongs to its two points: cuts go through
-/// a seam, and pieces keep their stitches. It ends with the piece of one of its points (manual,
-/// sewing).
+/// A seam joins two lines in the material, of two sheets or of one: stitches join points at the
+/// same parts of both. Cuts go through a seam, and pieces keep their stitches. A stitch ends with
+/// the piece of a point (manual, sewing).
 #[derive(Clone, Copy, Debug)]
 pub struct SeamDef<'a> {
     /// of the same model, and not planar
@@ -2588,10 +2584,9 @@ impl World {
         Ok(Status::of(result))
     }
 
-    /// A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It
-    /// remembers where it is in the material of each layer, and cuts on from there, whatever the
-    /// sheet did. Move it once a tick at least while it is in a sheet. Each layer has a cut, which
-    /// [`EventType::CutFinished`] reports (manual, cutting). sheet 0: all.
+    /// A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material
+    /// of each layer, and cuts on from there. Move it once a tick while it is in a sheet. Each
+    /// layer has a cut (manual, cutting). sheet 0: all.
     pub fn begin_blade(&mut self, sheet: Option<Sheet>) -> Result<Blade> {
         let mut blade = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2822,10 +2817,9 @@ impl Sheet {
         Ok(())
     }
 
-    /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
-    /// it wakes. The columns of rotation are the images of the world's axes; a planar sheet turns
-    /// about its normal only. Targets of pins, clamps, hinges and holds move along, but for pins on
-    /// obstacles. Pending loads and contacts stay (manual, sheets).
+    /// Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it
+    /// wakes. A planar sheet turns about its normal only. Targets of pins and holds move along, but
+    /// for pins on obstacles (manual, sheets).
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
@@ -3057,10 +3051,9 @@ impl Sheet {
         Ok(Pin::known(pin))
     }
 
-    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
-    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
-    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
-    /// one. [`ResultCode::ErrorArgument`]: equal ends, or no material.
+    /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
+    /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
+    /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
     pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3068,10 +3061,9 @@ impl Sheet {
         Ok(Pin::known(clamp))
     }
 
-    /// Hold a straight line of the rest plane. A clamp holds the place and direction of its
-    /// material, as a vice does; a hinge only the place. The line keeps its rest length: bent
-    /// material and separate pieces are pulled to it. A line along a cut holds both lips, beside it
-    /// one. [`ResultCode::ErrorArgument`]: equal ends, or no material.
+    /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
+    /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
+    /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
     pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3259,7 +3251,7 @@ impl Pin {
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
-    /// holds the visible surface. [`ResultCode::ErrorArgument`]: a point.
+    /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
@@ -3269,7 +3261,7 @@ impl Pin {
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
-    /// holds the visible surface. [`ResultCode::ErrorArgument`]: a point.
+    /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_pose(self, world: &mut World, target: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world)?;
@@ -3330,7 +3322,7 @@ impl Cut {
 impl Blade {
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
     /// that a camera casts; each end goes straight. The first call only says where it begins. An
-    /// end inside cuts along its own way.
+    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
     pub fn move_edge(self, world: &mut World, from: [f32; 3], to: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world)?;
@@ -3339,14 +3331,16 @@ impl Blade {
 
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
     /// that a camera casts; each end goes straight. The first call only says where it begins. An
-    /// end inside cuts along its own way.
+    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
     pub fn move_ray(self, world: &mut World, origin: [f32; 3], direction: [f32; 3], length: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world)?;
         Ok(())
     }
 
-    /// Ends the blade; its id is stale. Its cuts stay, and end where the blade is.
+    /// Move the blade to the straight edge between two points (m, world), or length m along a ray
+    /// that a camera casts; each end goes straight. The first call only says where it begins. An
+    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world)?;
