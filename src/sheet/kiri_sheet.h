@@ -8,7 +8,7 @@
 #include "../field/kiri_site.h"
 #include "../mesh/kiri_cut.h"
 #include "../motion/kiri_element.h"
-#include "../core/kiri_pool.h"
+#include "../core/kiri_array.h"
 #include "../motion/kiri_refit.h"
 #include "../motion/kiri_solver.h"
 #include "../view/kiri_bounds.h"

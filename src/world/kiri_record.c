@@ -92,7 +92,7 @@ static void CodeInt(Coder* coder, int32_t* value)
     }
 }
 
-/* Codes an id, slot first: so ids are short while there are few items, see kiri_pool.h. */
+/* Codes an id, slot first: so ids are short while there are few items, see kiri_array.h. */
 static void CodeId(Coder* coder, uint32_t* value)
 {
     uint64_t turned = (uint32_t)(*value << 10 | *value >> 22);

@@ -12,7 +12,6 @@
 #include "kiri_move.h"
 #include "kiri_pair.h"
 #include "kiri_seam.h"
-#include "kiri_tearing.h"
 
 #include <string.h>
 

@@ -241,6 +241,14 @@ void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index);
 kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count);
 kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count);
 
+/* ---- Tears ---- */
+
+/* Begins tears, and queues the next point of each. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: some wait. */
+kiriResult kiriTears_Grow(kiriWorld* world, double dt);
+
+/* Ends the tears that rest. */
+void kiriTears_EndResting(kiriWorld* world, double dt);
+
 KIRI_C_END
 
 #endif
