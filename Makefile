@@ -56,10 +56,11 @@ NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
 NEEDS_bench := $(NEEDS_lib) libcmocka-dev
-NEEDS_accuracy := $(NEEDS_lib) libpng-dev
+NEEDS_accuracy := $(NEEDS_lib)
+NEEDS_trade := $(NEEDS_lib) python3-matplotlib
 NEEDS_contact := $(NEEDS_lib) libbox2d-dev
 NEEDS_extremes := $(NEEDS_lib)
-NEEDS_gallery := $(NEEDS_play) ffmpeg
+NEEDS_gallery := $(NEEDS_play) python3-pil
 NEEDS_guide := $(NEEDS_run)
 NEEDS_manual := $(NEEDS_run)
 NEEDS_portable := $(NEEDS_lib)
@@ -121,7 +122,7 @@ TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,
 FUZZERS := calls load mesh replay spoil
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
-                  frame_layout results reference trade sweep plot)
+                  frame_layout results reference trade sweep)
 # What `make contact` is made of beside its driver.
 CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_rest contact_sheets contact_meetings contact_folds)
 # What is measured of sheets among bodies of Box2D.
@@ -264,10 +265,11 @@ accuracy extremes: %: packages-%
 	@mkdir -p build/$@
 	$(BUILD)/tests/$@ $(if $(filter accuracy,$@),tests/data build/accuracy "$(CASE)")
 
-trade: packages-accuracy
+trade: packages-trade
 	@$(MAKE) --no-print-directory $(BUILD)/tests/trade_page
 	@mkdir -p build/accuracy
 	$(BUILD)/tests/trade_page build/accuracy
+	@$(PYTHON) tests/plot_trade.py build/accuracy/trade.csv build/accuracy/trade.png
 
 contact: packages-contact
 	@$(MAKE) --no-print-directory $(BUILD)/tests/contact
@@ -277,7 +279,7 @@ contact: packages-contact
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
-JOIN = ffmpeg -v error -y -framerate 10 -i build/gallery/$(1)/frame_%04d.png -c:v libwebp_anim -quality 60 -loop 0 samples/pictures/$(1).webp
+JOIN = $(PYTHON) samples/join.py samples/pictures/$(1).webp 60 10 build/gallery/$(1)/frame_*.png
 CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
 NET_FILM := --script samples/games/scripts/net_6.txt
 
@@ -303,9 +305,9 @@ gallery: packages-gallery trade
 
 gallery-engines: web-test babylon-test love-test pygame-test godot-test
 	cp build/babylon_test/2_cut.png samples/pictures/babylon.png
-	ffmpeg -v error -y -i build/web_test/3_pieces.png -quality 82 samples/pictures/web_cut.webp
-	ffmpeg -v error -y -i build/web_test/5_snowflake.png -quality 82 samples/pictures/web_snowflake.webp
-	ffmpeg -v error -y -i build/web_test/6_lantern.png -quality 82 samples/pictures/web_lantern.webp
+	$(PYTHON) samples/join.py samples/pictures/web_cut.webp 82 1 build/web_test/3_pieces.png
+	$(PYTHON) samples/join.py samples/pictures/web_snowflake.webp 82 1 build/web_test/5_snowflake.png
+	$(PYTHON) samples/join.py samples/pictures/web_lantern.webp 82 1 build/web_test/6_lantern.png
 	cp build/love/love_290.png samples/pictures/love.png
 	cp build/pygame/pygame_195.png samples/pictures/pygame.png
 	cp $(BUILD)/godot/godot4.png samples/pictures/godot.png
@@ -550,14 +552,13 @@ $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
 
-$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS) samples/image) $(BUILD)/libkiri.a
+$(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lm
 
-$(BUILD)/tests/trade_page: $(patsubst %,$(BUILD)/tests/%.c.o,trade_page trade_drape springs specimen frame_layout plot) \
-        $(BUILD)/samples/image.c.o $(BUILD)/libkiri.a
+$(BUILD)/tests/trade_page: $(patsubst %,$(BUILD)/tests/%.c.o,trade_page trade_drape springs specimen frame_layout) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lm
 
 $(BUILD)/tests/contact: $(patsubst %,$(BUILD)/%.c.o,tests/contact $(CONTACT_PARTS)) $(BUILD)/tests/contact_box2d.cpp.o \
         $(BOX2D_LAWS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a

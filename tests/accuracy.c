@@ -1,5 +1,5 @@
-/* How far sheets are from the truth, by frames, grid, substeps and the time of a tick: a table here, and a CSV file and
-   plots in build/accuracy. Results from outside (theory, the literature, shells and beams solved by other programs; see
+/* How far sheets are from the truth, by frames, grid, substeps and the time of a tick: a table here, and a CSV file
+   in build/accuracy. Results from outside (theory, the literature, shells and beams solved by other programs; see
    data/README.md) are the truth, but for what moves: there a much finer run is (trade.c). */
 #include "accuracy.h"
 

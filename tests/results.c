@@ -1,7 +1,5 @@
 #include "results.h"
 
-#include "plot.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -101,7 +99,7 @@ void Results_AddValue(Row row, double value, double reference, const char* unit)
 
 /* ---- Files ------------------------------------------------------------------------------------------------------ */
 
-static bool WriteRows(const char* folder)
+bool Results_Write(const char* folder)
 {
     char path[512];
     snprintf(path, sizeof path, "%s/accuracy.csv", folder);
@@ -120,56 +118,4 @@ static bool WriteRows(const char* folder)
                 r->target, r->milliseconds, what != NULL ? what : "");
     }
     return fclose(file) == 0;
-}
-
-/* Series to plot, each on one grid. */
-typedef struct Series {
-    const char *title, *name, *setting, *layout;
-    int grid;
-} Series;
-
-static const Series plotted[] = {
-    { "cantilever, one row", "cantilever", "nu 0", "rows", 80 },
-    { "wide cantilever, nu 0.3, rows", "wide cantilever", "nu 0.3", "rows", 80 },
-    { "wide cantilever, nu 0.3, spread", "wide cantilever", "nu 0.3", "spread", 80 },
-    { "tongue, nu 0, spread", "tongue", "nu 0", "spread", 80 },
-    { "tongue, nu 0.3, spread", "tongue", "nu 0.3", "spread", 80 },
-    { "slit annulus, inner corner", "slit annulus", "nu 0, inner corner", "rings", 160 },
-    { "affine cantilever, one row", "affine cantilever", "nu 0", "rows", 80 },
-    { "roll-up to a circle, one row", "roll-up", "nu 0, turn 2 pi", "rows", 160 },
-};
-
-enum { PLOTTED = (int)(sizeof plotted / sizeof plotted[0]) };
-
-static Curve CurveOf(const Series* series)
-{
-    Curve curve = { series->title, { 0.0 }, { 0.0 }, 0 };
-    for (int i = 0; i < rowCount && curve.count < CURVE_POINTS; ++i) {
-        const Row* r = &rows[i];
-        if (strcmp(r->name, series->name) == 0 && strcmp(r->setting, series->setting) == 0 &&
-            strcmp(r->layout, series->layout) == 0 && r->grid == series->grid) {
-            curve.x[curve.count] = r->milliseconds;
-            curve.y[curve.count++] = 100.0 * fabs(r->error);
-        }
-    }
-    return curve;
-}
-
-/* Where one case alone ran there may be nothing to plot. */
-static bool WritePlot(const char* folder)
-{
-    Curve curves[PLOTTED];
-    char path[512];
-    int count = 0;
-    for (int k = 0; k < PLOTTED; ++k) {
-        curves[count] = CurveOf(&plotted[k]);
-        count += curves[count].count > 0 ? 1 : 0;
-    }
-    snprintf(path, sizeof path, "%s/statics.png", folder);
-    return count == 0 || Plot_Write(path, "ms a tick", "sheets at rest. error, % of the way", curves, count);
-}
-
-bool Results_Write(const char* folder)
-{
-    return WriteRows(folder) && WritePlot(folder);
 }

@@ -34,8 +34,7 @@ void Results_Add(const Row* row);
 /* error = value / reference - 1. */
 void Results_AddValue(Row row, double value, double reference, const char* unit);
 
-/* accuracy.csv, all rows; and statics.png, error against milliseconds for some series. False where a file cannot be
-   written. */
+/* Writes all rows to accuracy.csv. False where that cannot be written. */
 bool Results_Write(const char* folder);
 
 #endif

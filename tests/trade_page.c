@@ -1,5 +1,5 @@
 /* What accuracy costs, on one page: five materials in four scenes, Kiri's settings and presets, and springs
-   (springs.h). Writes trade.csv and trade.png, and prints how cloths drape (trade_drape.h).
+   (springs.h). Writes trade.csv (drawn by plot_trade.py), and prints how cloths drape (trade_drape.h).
 
    Sheets are level at first, and let go: they fall and swing for 0.4 s at 60 ticks a second. The error is the rms
    distance from the reference by the rms way of the reference, over points 2 cm apart and all ticks. The reference is a
@@ -7,7 +7,6 @@
    half the frames along, and from springs that are much finer too. Poisson's ratio is 0. */
 #include "defaults.h"
 #include "frame_layout.h"
-#include "plot.h"
 #include "specimen.h"
 #include "springs.h"
 #include "trade_drape.h"
@@ -274,14 +273,10 @@ typedef struct Sheet {
     Result results[MAX_RESULTS];
     int count;
     double noise; /* %, of the reference */
-    Curve curves[KIRI_QUALITY_COUNT + 4];
 } Sheet;
 
 static Sheet sheets[COUNT(scenes) * COUNT(stuffs)];
 static const int springSizes[] = { 10, 20, 40 };
-static const char* const curveNames[] = {
-    "Kiri", "Kiri fast", "Kiri balanced", "Kiri accurate", "springs, 10 squares along", "20", "40"
-};
 
 static Result KiriSetting(const Scene* scene, int columns, int substeps, int grid, const char* preset)
 {
@@ -347,48 +342,6 @@ static void MeasureAll(Sheet* sheet, const Scene* scene, const kiriMaterial* mat
     }
 }
 
-static void AddPoint(Curve* curve, const Result* result)
-{
-    if (curve->count < CURVE_POINTS) {
-        curve->x[curve->count] = result->milliseconds;
-        curve->y[curve->count++] = result->error;
-    }
-}
-
-/* Kiri's settings that none is as fast as and better than, its presets, and springs. */
-static void MakeCurves(Sheet* sheet)
-{
-    const Result* last = NULL;
-    for (int c = 0; c < COUNT(curveNames); ++c) {
-        sheet->curves[c].name = curveNames[c];
-    }
-    for (;;) {
-        const Result* next = NULL;
-        for (int k = 0; k < sheet->count; ++k) {
-            const Result* r = &sheet->results[k];
-            if (r->method[0] == 'k' && r->preset[0] == '\0' && (last == NULL || r->error < last->error) &&
-                (next == NULL || r->milliseconds < next->milliseconds)) {
-                next = r;
-            }
-        }
-        if (next == NULL) {
-            break;
-        }
-        AddPoint(&sheet->curves[0], next);
-        last = next;
-    }
-    for (int k = 0; k < sheet->count; ++k) {
-        const Result* r = &sheet->results[k];
-        int curve = r->preset[0] == 'f' ? 1 : r->preset[0] == 'b' ? 2 : 3;
-        for (int n = 0; n < COUNT(springSizes) && r->method[0] == 's'; ++n) {
-            curve = r->size == springSizes[n] ? 4 + n : curve;
-        }
-        if (r->method[0] == 's' || r->preset[0] != '\0') {
-            AddPoint(&sheet->curves[curve], r);
-        }
-    }
-}
-
 static bool WriteTable(const char* folder)
 {
     char path[512];
@@ -413,27 +366,22 @@ static bool WriteTable(const char* folder)
 int main(int argc, char** argv)
 {
     const char* folder = argc > 1 ? argv[1] : "build/accuracy";
-    char path[512];
-    Panel panels[COUNT(sheets)];
     for (int k = 0; k < COUNT(sheets); ++k) {
         const Scene* scene = &scenes[k / COUNT(stuffs)];
         kiriMaterial material = MaterialOf(k % COUNT(stuffs));
         snprintf(sheets[k].title, sizeof sheets[k].title, "%s of %s", scene->name, stuffs[k % COUNT(stuffs)]);
         MeasureAll(&sheets[k], scene, &material);
-        MakeCurves(&sheets[k]);
-        panels[k] = (Panel){ sheets[k].title, sheets[k].curves, COUNT(curveNames), sheets[k].noise };
         printf("%-20s reference to %.2g %%:", sheets[k].title, sheets[k].noise);
-        for (int c = 1; c <= KIRI_QUALITY_COUNT; ++c) {
-            printf("  %s %.3g %% at %.3g ms", curveNames[c], sheets[k].curves[c].y[0], sheets[k].curves[c].x[0]);
+        for (int r = 0; r < sheets[k].count; ++r) {
+            const Result* result = &sheets[k].results[r];
+            if (result->preset[0] != '\0') {
+                printf("  %s %.3g %% at %.3g ms", result->preset, result->error, result->milliseconds);
+            }
         }
         printf("\n");
         fflush(stdout);
     }
-    snprintf(path, sizeof path, "%s/trade.png", folder);
-    const double x[2] = { 0.01, 20.0 }, y[2] = { 0.05, 500.0 };
-    Require(WriteTable(folder) && Plot_WritePage(path, "ms a tick of 1/60 s", "error, % of the way", panels,
-                                                 COUNT(stuffs), COUNT(scenes), x, y),
-            "cannot write the results");
+    Require(WriteTable(folder), "cannot write the results");
     Drape_Print();
     return 0;
 }

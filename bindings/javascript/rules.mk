@@ -129,7 +129,7 @@ web-test: web $(BUILD)/tests/replay_hash
 	    echo "web: C ends in the same state"; fi
 
 # The moving picture of the README.
-NEEDS_web-film := $(NEEDS_web) chromium ffmpeg
+NEEDS_web-film := $(NEEDS_web) chromium python3-pil
 FILM_PICTURES := build/web_film
 
 .PHONY: web-film
@@ -138,9 +138,7 @@ web-film: packages-web-film
 	@$(MAKE) --no-print-directory $(WEB)/main.js
 	@rm -rf $(FILM_PICTURES)
 	@node samples/web/film.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(FILM_PICTURES) $(BROWSER)
-	@ffmpeg -v error -y -framerate 15 -i $(FILM_PICTURES)/film_%03d.png -c:v libwebp_anim -quality 55 -compression_level 6 -loop 0 \
-	    samples/pictures/film.webp
-	@echo "  samples/pictures/film.webp: $$(wc -c < samples/pictures/film.webp) bytes"
+	@$(PYTHON) samples/join.py samples/pictures/film.webp 55 15 $(FILM_PICTURES)/film_*.png
 
 # ---- The host in babylon.js: static files in build/babylon ----
 
