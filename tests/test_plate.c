@@ -464,7 +464,7 @@ TEST(RibbonsBendAndTwist)
         const kiriPose* const ways[2] = { &poses[0], &poses[1] };
         double strain[KIRI_STRAINS], stiffness[KIRI_STRAINS], energy = 0.0;
         kiriMaterial material = MaterialOf(nu, 0.01);
-        kiriStrain_Measure(&link, &material, ends, ways, strain, NULL);
+        kiriStrain_Measure(&link, &material, ends, ways, 0.0, strain, NULL);
         kiriStrain_Stiffness(&link, &material, stiffness);
         for (int e = KIRI_BENDING; e <= KIRI_TWIST; ++e) {
             energy += 0.5 * stiffness[e] * strain[e] * strain[e];

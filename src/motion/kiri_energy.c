@@ -311,15 +311,17 @@ static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* mater
     kiriPose own[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
     const kiriPose* const poses[2] = { &own[0], &own[1] };
     double strain[KIRI_STRAINS];
-    kiriStrain_Measure(link, material, ends, poses, strain, NULL);
+    kiriStrain_Measure(link, material, ends, poses, 0.0, strain, NULL);
     return TakeStrains(link, strain);
 }
 
 static LinkStrains StrainsOfClamp(const kiriClampRow* clamp, const kiriFrameData* frames)
 {
     kiriPose pose = kiriPose_Of(&frames[clamp->frame]);
+    kiriClampRow row = *clamp;
     double strain[KIRI_CLAMP_STRAINS];
-    kiriClamp_Measure(clamp, &frames[clamp->frame], &clamp->pose, &pose, strain, NULL);
+    row.offset[KIRI_PLANE_BENDING] = 0.0;
+    kiriClamp_Measure(&row, &frames[clamp->frame], &clamp->pose, &pose, strain, NULL);
     return TakeStrains(&clamp->link, strain);
 }
 

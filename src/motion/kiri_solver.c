@@ -1075,7 +1075,8 @@ static void MeasureRigidLink(const kiriSystem* system, const kiriLink* link, con
 {
     LinkEnds ends = LinkEndsOf(system, link, poses);
     const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-    kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses, strain, rows);
+    kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses,
+                       kiriSystem_Turned(system, link), strain, rows);
 }
 
 static void MeasureRigidRows(const kiriSystem* system, const kiriLink* link, const kiriPose* poses, double* strain,

@@ -574,6 +574,12 @@ static inline const kiriMaterial* kiriSystem_MaterialOf(const kiriSystem* system
     return system->materials != NULL ? system->materials[frame] : &system->material;
 }
 
+/* Returns the offset of plane bending of a link between rigid frames. */
+static inline double kiriSystem_Turned(const kiriSystem* system, const kiriLink* link)
+{
+    return system->strainOffsets != NULL ? system->strainOffsets[link - system->links].strain[KIRI_PLANE_BENDING] : 0.0;
+}
+
 static inline const kiriAir* kiriSystem_AirOf(const kiriSystem* system, int32_t frame)
 {
     return system->airs != NULL ? system->airs[frame] : system->air;

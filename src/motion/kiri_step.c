@@ -719,7 +719,8 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
         const kiriLink* link = kiriElement_Link(system, k);
         const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
         const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
-        kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
+        kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), frames, ends, kiriSystem_Turned(system, link), strain,
+                           (kiriStrainRow*)J); /* rows are J as it is */
     } else {
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
         for (int32_t n = 0; n < kiriElement_StrainCount(system, k) * count; ++n) {

@@ -35,6 +35,8 @@
 #define TURNED (-0.5)
 
 #define HALF_TURN 3.14159265358979
+/* Least cosine of half a turn about d by which an offset of plane bending is divided. */
+#define LEAST_COSINE 0.1
 /* Least difference of the squares of half a turn and of an angle. */
 #define LEAST_ROOM 1e-6
 
@@ -452,7 +454,7 @@ static double MeasureHinge(const kiriLink* link, const kiriVec3 axes[2][3], kiri
 
 /* Measures the strains of a fold, see kiri_strain.h. */
 static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
-                        double strain[KIRI_STRAINS], kiriStrainRow* rows)
+                        double turned, double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
     KIRI_ASSERT(link->fold > 0 && link->hinge >= 0.0);
     EndVectors b = PointVectors(frames, poses, link->centroid);
@@ -466,7 +468,7 @@ static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[
     strain[KIRI_STRETCH] = MeasureAlong(axes[0][0], b.gap, &b, FOLD_ROW(KIRI_STRETCH));
     strain[KIRI_SHEAR] = MeasureAlong(axes[0][1], b.gap, &b, FOLD_ROW(KIRI_SHEAR));
     strain[KIRI_NORMAL_GAP] = MeasureAlong(axes[0][2], b.gap, &b, FOLD_ROW(KIRI_NORMAL_GAP));
-    strain[KIRI_PLANE_BENDING] = MeasureAlong(axes[0][0], axes[1][1], NULL, FOLD_ROW(KIRI_PLANE_BENDING));
+    strain[KIRI_PLANE_BENDING] = MeasureAlong(axes[0][0], axes[1][1], NULL, FOLD_ROW(KIRI_PLANE_BENDING)) - turned;
     strain[KIRI_TWIST] = MeasureAlong(axes[0][2], axes[1][1], NULL, FOLD_ROW(KIRI_TWIST));
     strain[KIRI_BENDING] = MeasureHinge(link, (const kiriVec3(*)[3])axes, FOLD_ROW(KIRI_BENDING)) - link->rest;
 #undef FOLD_ROW
@@ -482,7 +484,7 @@ double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const 
                       const kiriPose* const poses[2], double offset)
 {
     double strain[KIRI_STRAINS], stiffness[KIRI_STRAINS];
-    MeasureFold(link, frames, poses, strain, NULL);
+    MeasureFold(link, frames, poses, 0.0, strain, NULL);
     kiriStrain_Stiffness(link, material, stiffness);
     double moment = stiffness[KIRI_BENDING] * (strain[KIRI_BENDING] - offset);
     double bending = kiriStrain_PlateStiffness(material) * link->width / link->length;
@@ -490,11 +492,12 @@ double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const 
 }
 
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
-                        const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows)
+                        const kiriPose* const poses[2], double turned, double strain[KIRI_STRAINS],
+                        kiriStrainRow* rows)
 {
     KIRI_ASSERT(link->length > 0.0 && link->width > 0.0);
     if (link->fold != 0) {
-        MeasureFold(link, frames, poses, strain, rows);
+        MeasureFold(link, frames, poses, turned, strain, rows);
         return;
     }
     MeanAxes axes = MeanAxesOf(link, poses, rows != NULL);
@@ -508,15 +511,16 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
     strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m.gap, axes.d);
     strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
-    strain[KIRI_PLANE_BENDING] = -2.0 * axes.sine;
+    strain[KIRI_PLANE_BENDING] = -2.0 * axes.sine - turned * axes.cosine;
     strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
     strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
     if (rows != NULL) {
         WriteGap(&axes, axes.d, &m, &rows[KIRI_NORMAL_GAP]);
         WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
         memset(&rows[KIRI_PLANE_BENDING], 0, sizeof(rows[KIRI_PLANE_BENDING]));
-        rows[KIRI_PLANE_BENDING].end[0].turn = kiriVec3_Scale(axes.cosine, axes.turnBy);
-        rows[KIRI_PLANE_BENDING].end[1].turn = kiriVec3_Scale(-axes.cosine, axes.turnBy);
+        double byTurn = 0.5 * turned * axes.sine - axes.cosine;
+        rows[KIRI_PLANE_BENDING].end[0].turn = kiriVec3_Scale(-byTurn, axes.turnBy);
+        rows[KIRI_PLANE_BENDING].end[1].turn = kiriVec3_Scale(byTurn, axes.turnBy);
         WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
         WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
@@ -558,7 +562,7 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
 {
     KIRI_ASSERT(count > 0 && count <= (isAffine ? (int)KIRI_AFFINE_STRAINS : (int)KIRI_STRAINS));
     for (int e = 0; e < count; ++e) {
-        pulling[e] = strain[e] - offset[e];
+        pulling[e] = strain[e] - (e == KIRI_PLANE_BENDING ? 0.0 : offset[e]);
     }
     for (int e = KIRI_FOLD; !isAffine && e < count; ++e) { /* folds and stops only push */
         double over = fabs(strain[e]) - fabs(offset[e]);
@@ -724,12 +728,22 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
 static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
-                        const kiriFrameData* j, double* strain)
+                        const kiriFrameData* j, double turned, double* strain)
 {
     const kiriFrameData* const ends[2] = { i, j };
     const kiriPose now[2] = { kiriPose_Of(i), kiriPose_Of(j) };
     const kiriPose* const poses[2] = { &now[0], &now[1] };
-    kiriStrain_Measure(link, material, ends, poses, strain, NULL);
+    kiriStrain_Measure(link, material, ends, poses, turned, strain, NULL);
+}
+
+void kiriStrainOffset_Keep(const double* strain, const double* turned, const double* was, const double* older,
+                           double* offset)
+{
+    double cosine = strain[KIRI_PLANE_BENDING] - turned[KIRI_PLANE_BENDING];
+    for (int e = 0; e < KIRI_STRAINS; ++e) {
+        offset[e] = strain[e] - was[e] + (e == KIRI_PLANE_BENDING ? 0.0 : older[e]);
+    }
+    offset[KIRI_PLANE_BENDING] = kiriClamp(offset[KIRI_PLANE_BENDING] / kiriMax(cosine, LEAST_COSINE), -1.0, 1.0);
 }
 
 const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames,
@@ -752,15 +766,14 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
                                        const kiriMaterial* material)
 {
     kiriStrainOffset offset;
-    double was[KIRI_STRAINS] = { 0 };
-    MeasureLink(link, material, &frames[link->i], &frames[link->j], offset.strain);
+    double strain[KIRI_STRAINS], turned[KIRI_STRAINS], was[KIRI_STRAINS] = { 0 };
+    MeasureLink(link, material, &frames[link->i], &frames[link->j], 0.0, strain);
+    MeasureLink(link, material, &frames[link->i], &frames[link->j], 1.0, turned);
     if (old != NULL) {
         MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
-                    kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->j), was);
+                    kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->j), older->strain[KIRI_PLANE_BENDING], was);
     }
-    for (int e = 0; e < KIRI_STRAINS; ++e) {
-        offset.strain[e] -= old != NULL ? was[e] - older->strain[e] : 0.0;
-    }
+    kiriStrainOffset_Keep(strain, turned, was, older->strain, offset.strain);
     return offset;
 }
 
@@ -1232,7 +1245,8 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
         }
     } else {
         kiriStrainRow both[KIRI_STRAINS];
-        kiriStrain_Measure(&row->link, row->material, frames, poses, strain, rows != NULL ? both : NULL);
+        kiriStrain_Measure(&row->link, row->material, frames, poses, row->offset[KIRI_PLANE_BENDING], strain,
+                           rows != NULL ? both : NULL);
         for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
             memset(&rows[e], 0, sizeof(rows[e]));
             rows[e].by[0] = both[e].end[1].move;

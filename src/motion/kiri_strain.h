@@ -90,9 +90,11 @@ typedef struct kiriStrainRow {
 
 /* Measures the strains and, unless `rows` is null, their derivatives. These are exact, so the inner forces and their
    moments sum to zero. Strains are invariant if both frames move as one rigid body. frames[] and poses[] are of i, j.
-   */
+   Plane bending is without its offset, `turned`: this one fades up to half a turn about d, where the strain changes its
+   sign, so the energy has no jump there. */
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
-                        const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows);
+                        const kiriPose* const poses[2], double turned, double strain[KIRI_STRAINS],
+                        kiriStrainRow* rows);
 
 /* Folds (kiriLink.fold) have the same strains, with another meaning: gaps at the middle of the line, along the axes of
    frame i; plane bending and twist are the parts of tau_j along n_i and d_i; bending is the angle by which the sheet is
@@ -106,7 +108,7 @@ double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const 
    strains change fast while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
-/* Subtracts the offsets from the strains of a link. The result is the part that causes forces. */
+/* Subtracts the offsets from the strains of a link, but for plane bending. The result is the part that causes forces. */
 void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling);
 
 /* Returns D of a plate, N m. */
@@ -165,7 +167,8 @@ void kiriTrace_Stiffness(const kiriCorner* corner, const kiriMaterial* material,
    larger or smaller gaps, which would add energy in a bent stiff sheet. So a link keeps its old strain: the difference
    is its offset, which fades with time. */
 
-/* Offsets that are subtracted from the strains of a link before these cause forces. */
+/* Offsets that are subtracted from the strains of a link before these cause forces: that of plane bending times the
+   cosine of half the turn about d. */
 typedef struct kiriStrainOffset {
     double strain[KIRI_STRAINS];
 } kiriStrainOffset;
@@ -201,6 +204,11 @@ const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* stra
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
                             int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was,
                             const kiriFrameData* frames, const kiriMaterial* material);
+
+/* Sets offsets so that strains pull as others did; `turned`: the strains, measured with 1 for the offset of plane bending;
+   `was`, `older`: the others, and their offsets. */
+void kiriStrainOffset_Keep(const double* strain, const double* turned, const double* was, const double* older,
+                           double* offset);
 
 /* Fades the offsets of these links by 1 / e per `time` (s), but for their plastic parts. */
 void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,

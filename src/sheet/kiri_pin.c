@@ -381,10 +381,11 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
 /* ---- Strains that clamps keep ------------------------------------------------------------------------------------ */
 
 static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
-                         double* strain)
+                         double turned, double* strain)
 {
     kiriClampRow row = ClampRowOf(sheet, pinned, frame, 0.0, 1.0);
     kiriPose pose = kiriPose_Of(frame);
+    row.offset[KIRI_PLANE_BENDING] = turned;
     kiriClamp_Measure(&row, frame, &row.pose, &pose, strain, NULL);
 }
 
@@ -435,15 +436,15 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
             continue;
         }
         const kiriPinShare* older = FindPinned(old, pinned->pin, frame);
-        double was[KIRI_CLAMP_STRAINS] = { 0 };
-        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], pinned->offset);
+        double strain[KIRI_CLAMP_STRAINS], turned[KIRI_CLAMP_STRAINS], was[KIRI_CLAMP_STRAINS] = { 0 };
+        const double none[KIRI_CLAMP_STRAINS] = { 0 };
+        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 0.0, strain);
+        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 1.0, turned);
         if (older != NULL) {
             MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
-                         was);
+                         older->offset[KIRI_PLANE_BENDING], was);
         }
-        for (int e = 0; e < KIRI_STRAINS; ++e) {
-            pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;
-        }
+        kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
         memset(&pinned->plastic, 0, sizeof(pinned->plastic));
         older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
         if (older != NULL && sheet->plastics.isKept) {

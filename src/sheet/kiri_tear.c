@@ -75,9 +75,9 @@ static void MeasurePull(const kiriSheetData* sheet, int32_t k, const kiriLink* l
     const kiriStrainOffset none = { { 0.0 } };
     double strain[KIRI_STRAINS];
     bool hasOffsets = sheet->strainOffsets.strainOffsets.count > 0;
-    kiriStrain_Measure(link, &sheet->settings.material, ends, poses, strain, NULL);
-    kiriStrain_TakeOffsets(strain, hasOffsets ? sheet->strainOffsets.strainOffsets.data[k].strain : none.strain,
-                           KIRI_STRAINS, false, pulling);
+    const double* offset = hasOffsets ? sheet->strainOffsets.strainOffsets.data[k].strain : none.strain;
+    kiriStrain_Measure(link, &sheet->settings.material, ends, poses, offset[KIRI_PLANE_BENDING], strain, NULL);
+    kiriStrain_TakeOffsets(strain, offset, KIRI_STRAINS, false, pulling);
 }
 
 /* Measures the links, and fits a membrane strain to each region. */
