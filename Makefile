@@ -35,6 +35,7 @@
 #   make clean    removes build/
 #
 #   config=release|debug|sanitize|thread|coverage|fuzz   default release
+#   RENDERER=osmesa|egl   what samples and games draw by
 #   WERROR=   warnings of a newer compiler are no errors
 #   SCENE=name ARGS='--size 1280x960'   for run; ARGS=--help lists them
 
@@ -74,6 +75,12 @@ ifndef EIGEN
 EIGEN := $(or $(patsubst -I%,%,$(shell pkg-config --cflags-only-I eigen3 2>/dev/null)),/usr/include/eigen3)
 endif
 
+# Samples and games draw by OSMesa, or where Mesa (25.1 and later) has none, by EGL without a surface.
+ifndef RENDERER
+RENDERER := $(shell echo '\#include <GL/osmesa.h>' | $(CC) -E - > /dev/null 2>&1 && echo osmesa || echo egl)
+endif
+GL_LIBRARIES := $(if $(filter egl,$(RENDERER)),-lEGL -lGL,-lOSMesa)
+
 # Contraction to fused multiply-add would give other bits on other machines.
 WERROR ?= -Werror
 FLAGS := -Wall -Wextra -Wpedantic -Wshadow $(WERROR) -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
@@ -112,7 +119,7 @@ GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
 # Drawings to cut: SVG, DXF, FOLD.
 IMPORT_OBJECTS := $(filter $(BUILD)/samples/import% %/export.c.o,$(SAMPLE_OBJECTS))
 # What games and their tests share with the samples.
-PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
+PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges offscreen)
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o %/sheets.c.o,$(SAMPLE_OBJECTS))
 # Checks and hashes of a whole world, for all tests.
@@ -139,11 +146,11 @@ PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
 # What is made from the header, and the programs of the manual, once.
 DESCRIBED_CHECK := $(if $(filter release,$(config)),described manual-programs)
 # Tests of the Makefile itself, and of what it installs: once.
-BUILD_CHECK := $(if $(filter release,$(config)),builds consumers exported)
+BUILD_CHECK := $(if $(filter release,$(config)),builds consumers exported renderers)
 
 # What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
 # commands, the library on one with the lists of objects, and all that is linked on the library.
-COMPILE_TEXT := $(COMPILE_C) | $(COMPILE_CXX) | $(EIGEN) | $(FLAGS_counted)
+COMPILE_TEXT := $(COMPILE_C) | $(RENDERER) | $(COMPILE_CXX) | $(EIGEN) | $(FLAGS_counted)
 LINK_TEXT := $(LINK) | $(VERSION) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECTS) | $(GAME_OBJECTS)
 TO_COMPILE := $(BUILD)/compile.txt Makefile
 TO_LINK := $(BUILD)/link.txt Makefile
@@ -152,7 +159,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
-.PHONY: all run box2d jolt play view python bindings described builds exported lib single example bench accuracy trade contact extremes gallery guide deps
+.PHONY: all run box2d jolt play view python bindings described builds exported renderers lib single example bench accuracy trade contact extremes gallery guide deps
 .PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -327,13 +334,13 @@ guide: packages-guide
 # The programs of the manual, as a user compiles them; what they print is what it says. And with what takes pictures.
 MANUAL = $(PYTHON) samples/manual/manual.py $(BUILD)/manual \
     '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude -Isamples {source} $(IMPORT_OBJECTS) $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
-MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines) $(BUILD)/libkiri.a
+MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines offscreen) $(BUILD)/libkiri.a
 
 .PHONY: manual manual-programs manual-golden
 
 manual: packages-manual
 	@$(MAKE) --no-print-directory manual-programs $(MANUAL_PICTURES)
-	@$(MANUAL) --pictures $(MANUAL_PICTURES) -lOSMesa -lpng -lz -lstdc++ -lm
+	@$(MANUAL) --pictures $(MANUAL_PICTURES) $(GL_LIBRARIES) -lpng -lz -lstdc++ -lm
 
 manual-programs: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 	@$(MANUAL)
@@ -405,6 +412,17 @@ exported: $(RUN) $(VIEW)
 	@view=$(BUILD)/exported/view; $(VIEW) $$view.kiri 60 $$view.1.png 25 $$view.2.png 60 $$view.3.png 25 $$view.4.png && \
 	    cmp $$view.1.png $$view.3.png && cmp $$view.2.png $$view.4.png && ! cmp -s $$view.1.png $$view.2.png && \
 	    echo "view: ticks look alike from before and from after"
+
+$(BUILD)/samples/kiri-run-egl: $(filter-out %/offscreen.c.o,$(SAMPLE_OBJECTS)) samples/offscreen.c $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(COMPILE_C) -Iinclude -DKIRI_EGL -c samples/offscreen.c -o $@.o
+	@$(LINK) -o $@ $(filter %.c.o,$^) $@.o $(filter %.a,$^) -lEGL -lGL -lpng -lz -lm
+
+renderers: $(RUN)
+	@if [ $(RENDERER) = egl ] || ! echo '\#include <EGL/egl.h>' | $(CC) -E - > /dev/null 2>&1; then \
+	    echo "renderers: not OSMesa and EGL, not tested"; exit 0; fi; \
+	$(MAKE) --no-print-directory $(BUILD)/samples/kiri-run-egl && mkdir -p $(BUILD)/renderers && \
+	    $(PYTHON) tests/test_renderers.py $(RUN) $(BUILD)/samples/kiri-run-egl $(BUILD)/renderers
 
 # The folders of src are floors: a file includes from its own and from lower ones, never from higher ones. Circles inside a
 # folder are counted by the ratchet.
@@ -515,6 +533,8 @@ $(BUILD)/src/%.cpp.o: src/%.cpp $(TO_COMPILE)
 	@echo "  $<"
 	@$(COMPILE_CXX) -fvisibility=hidden -fvisibility-inlines-hidden -isystem "$(EIGEN)" -c $< -o $@
 
+$(BUILD)/samples/offscreen.c.o: private FLAGS += $(if $(filter egl,$(RENDERER)),-DKIRI_EGL)
+
 $(BUILD)/samples/%.c.o: samples/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
@@ -537,20 +557,20 @@ $(BUILD)/tests/%.cpp.o: tests/%.cpp $(TO_COMPILE)
 
 $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ $(GL_LIBRARIES) -lpng -lz -lm
 
 $(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(BUILD)/samples/draw.c.o $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lbox2d -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
 $(VIEW): $(addprefix $(BUILD)/samples/,view/main.c.o games/window.c.o games/sound.c.o) \
         $(filter-out %/run.c.o,$(filter %.c.o,$(SAMPLE_OBJECTS))) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lSDL2 -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lSDL2 $(GL_LIBRARIES) -lpng -lz -lm
 
 $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
 $(BUILD)/tests/accuracy: $(patsubst %,$(BUILD)/%.c.o,tests/accuracy $(ACCURACY_PARTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
@@ -577,7 +597,7 @@ $(BUILD)/tests/test_box2d: $(BUILD)/tests/test_box2d.cpp.o $(BOX2D_LAWS) $(BUILD
 
 $(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lcmocka -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lcmocka -lSDL2_ttf -lSDL2 -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
@@ -599,7 +619,7 @@ $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
 
 $(BUILD)/tests/test_games: $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS)
-$(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lSDL2_ttf -lSDL2 -lbox2d -lOSMesa -lpng -lz
+$(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lSDL2_ttf -lSDL2 -lbox2d $(GL_LIBRARIES) -lpng -lz
 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread

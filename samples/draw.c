@@ -1,8 +1,7 @@
 #include "draw.h"
 #include "edges.h"
+#include "offscreen.h"
 
-#include <GL/osmesa.h>
-#include <GL/glext.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +13,8 @@ static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
 static const float edgeColor[3] = { 0.13f, 0.16f, 0.24f };
 
 struct Painter {
-    OSMesaContext context;
+    Offscreen* offscreen;
     int32_t width, height; /* of the picture; the buffer is OVERSAMPLING times as large */
-    uint8_t* buffer;
     GLuint clothTexture, shadowTexture, rasterTexture;
     Edge* edges;
     int32_t edgeCapacity;
@@ -56,16 +54,7 @@ static void SetCamera(const Camera* camera, float aspect)
     Cross(up, back, right);
     Normalize(right);
     Cross(back, right, up);
-    float matrix[16] = { 0.0f };
-    for (int i = 0; i < 3; i++) {
-        matrix[4 * i] = right[i];
-        matrix[4 * i + 1] = up[i];
-        matrix[4 * i + 2] = back[i];
-    }
-    matrix[15] = 1.0f;
-    glMatrixMode(GL_MODELVIEW);
-    glLoadMatrixf(matrix);
-    glTranslatef(-camera->eye[0], -camera->eye[1], -camera->eye[2]);
+    Offscreen_LookFrom(camera->eye, right, up, back);
 }
 
 /* ---- Background and shadow -------------------------------------------------------------------------------------- */
@@ -91,26 +80,6 @@ static void DrawBackground(void)
     glEnable(GL_DEPTH_TEST);
 }
 
-/* One pass of a box filter over rows; `step` from pixel to pixel, `stride` from row to row. */
-static void BlurRows(uint8_t* pixels, int32_t step, int32_t stride, int32_t radius)
-{
-    uint8_t line[SHADOW_SIZE];
-    for (int32_t y = 0; y < SHADOW_SIZE; y++) {
-        uint8_t* row = pixels + y * stride;
-        int32_t sum = 0;
-        for (int32_t x = 0; x < SHADOW_SIZE + radius; x++) {
-            sum += x < SHADOW_SIZE ? row[x * step] : 0;
-            sum -= x > 2 * radius ? line[x - 2 * radius - 1] : 0;
-            if (x < SHADOW_SIZE) {
-                line[x] = row[x * step];
-            }
-            if (x >= radius) {
-                row[(x - radius) * step] = (uint8_t)(sum / (2 * radius + 1));
-            }
-        }
-    }
-}
-
 /* The sheet as the light sees it on the floor, blurred, as a texture. Uses a corner of the picture: it comes first. */
 static void MakeShadow(Painter* painter, const kiriMesh* mesh, float zoom)
 {
@@ -131,14 +100,7 @@ static void MakeShadow(Painter* painter, const kiriMesh* mesh, float zoom)
     glColor3f(1.0f, 1.0f, 1.0f);
     glDrawElements(GL_TRIANGLES, 3 * mesh->triangleCount, GL_UNSIGNED_INT, mesh->indices);
 
-    uint8_t mask[SHADOW_SIZE * SHADOW_SIZE];
-    glReadPixels(0, 0, SHADOW_SIZE, SHADOW_SIZE, GL_RED, GL_UNSIGNED_BYTE, mask);
-    for (int pass = 0; pass < 3; pass++) {
-        BlurRows(mask, 1, SHADOW_SIZE, 4);
-        BlurRows(mask, SHADOW_SIZE, 1, 4);
-    }
-    glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_ALPHA, SHADOW_SIZE, SHADOW_SIZE, 0, GL_ALPHA, GL_UNSIGNED_BYTE, mask);
+    Offscreen_MakeShadow(painter->shadowTexture, SHADOW_SIZE, 4, 3);
 }
 
 static void DrawShadow(const Painter* painter)
@@ -425,31 +387,21 @@ Painter* Painter_Create(int32_t width, int32_t height)
     int32_t columns = OVERSAMPLING * width, rows = OVERSAMPLING * height;
     painter->width = width;
     painter->height = height;
-    painter->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, NULL);
-    painter->buffer = malloc(4 * (size_t)columns * (size_t)rows);
-    if (painter->context == NULL || painter->buffer == NULL || columns < SHADOW_SIZE || rows < SHADOW_SIZE ||
-        !OSMesaMakeCurrent(painter->context, painter->buffer, GL_UNSIGNED_BYTE, columns, rows)) {
+    painter->offscreen = columns < SHADOW_SIZE || rows < SHADOW_SIZE ? NULL : Offscreen_Create(columns, rows);
+    if (painter->offscreen == NULL) {
         Painter_Destroy(painter);
         return NULL;
     }
-    OSMesaPixelStore(OSMESA_Y_UP, 0);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glGenTextures(1, &painter->clothTexture);
     glGenTextures(1, &painter->shadowTexture);
     glGenTextures(1, &painter->rasterTexture);
-    glBindTexture(GL_TEXTURE_2D, painter->shadowTexture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     MakeClothTexture(painter);
     return painter;
 }
 
 void Painter_Destroy(Painter* painter)
 {
-    if (painter->context != NULL) {
-        OSMesaDestroyContext(painter->context);
-    }
-    free(painter->buffer);
+    Offscreen_Destroy(painter->offscreen);
     free(painter->edges);
     free(painter);
 }
@@ -488,7 +440,6 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
         DrawBlade(view->blades + 3 * i, zoom);
     }
     glDisableClientState(GL_VERTEX_ARRAY);
-    glFinish();
-    Image_Shrink(image, painter->buffer, columns, 4, OVERSAMPLING);
+    Offscreen_Shrink(painter->offscreen, image, OVERSAMPLING);
     return true;
 }

@@ -1,4 +1,4 @@
-/* Draws a sheet into a picture with OSMesa: OpenGL in software, with no window and no graphics card. */
+/* Draws a sheet into a picture, without a window (offscreen.h). */
 #ifndef DRAW_H
 #define DRAW_H
 
@@ -27,7 +27,7 @@ typedef struct View {
 
 typedef struct Painter Painter;
 
-/* Null without memory, or when OSMesa cannot do this size. */
+/* Null without memory, or where no OpenGL can do this size. */
 Painter* Painter_Create(int32_t width, int32_t height);
 void Painter_Destroy(Painter* painter);
 

@@ -12,7 +12,7 @@ typedef struct Shot {
     Sheets sheets;
 } Shot;
 
-/* False without memory, or if OSMesa cannot do this size. Destroy it in any case. */
+/* False without memory, or where no OpenGL can do this size. Destroy it in any case. */
 bool Shot_Create(Shot* shot, int32_t width, int32_t height);
 void Shot_Destroy(Shot* shot);
 

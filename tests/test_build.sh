@@ -141,7 +141,16 @@ mkdir "$folder/headers"
 touch "$folder/headers/stdint.h" "$folder/headers/vector"
 refuses 'make run needs libosmesa6-dev libpng-dev (' run
 refuses 'make deps needs .*libbox2d-dev.* python3-cffi' deps PYTHON=none
-mkdir "$folder/headers/GL"
+mkdir "$folder/headers/GL" "$folder/headers/EGL"
+stub id 'echo 0'
+stub apt-cache 'exit 1' # a Debian without OSMesa
+PATH=$bin run_make CC=cc CXX=c++ EIGEN="$folder/eigen" packages-run
+grep -q 'install libegl-dev libgl-dev libpng-dev$' "$folder/installed" || fail 'root did not install EGL where OSMesa is gone'
+rm "$folder/installed"
+stub id 'echo 1000'
+touch "$folder/headers/EGL/egl.h" "$folder/headers/GL/gl.h"
+refuses 'make run needs libpng-dev (' run
+rm "$folder/headers/EGL/egl.h"
 touch "$folder/headers/GL/osmesa.h"
 refuses 'make run needs libpng-dev (' run
 [ ! -e "$folder/installed" ] || fail 'apt-get was called by one who is not root'

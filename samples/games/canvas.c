@@ -1,13 +1,13 @@
 #include "canvas_parts.h"
 #include "game.h"
 
-#include <GL/osmesa.h>
-#include <GL/glext.h>
+#include "../offscreen.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHADOW_SIZE = 512, TEXTURES = 8 };
+enum { TEXTURES = 8 };
 
 static const float nearest = 0.05f, farthest = 60.0f;     /* m */
 static const float toLight[3] = { -0.35f, -0.45f, 1.0f }; /* as in draw.c */
@@ -32,9 +32,8 @@ typedef struct TextureSlot {
 } TextureSlot;
 
 struct Canvas {
-    OSMesaContext context;
+    Offscreen* offscreen;
     int32_t width, height, oversampling;
-    uint8_t* buffer;
     GLuint shadowTextures[3]; /* of the grounds */
     TextureSlot textures[TEXTURES];
     int32_t nextTexture;
@@ -58,21 +57,14 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling)
     if (canvas == NULL) {
         return NULL;
     }
-    int32_t columns = oversampling * width, rows = oversampling * height;
     canvas->width = width;
     canvas->height = height;
     canvas->oversampling = oversampling;
-    canvas->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, NULL);
-    canvas->buffer = malloc(4 * (size_t)columns * (size_t)rows);
-    if (canvas->context == NULL || canvas->buffer == NULL ||
-        !OSMesaMakeCurrent(canvas->context, canvas->buffer, GL_UNSIGNED_BYTE, columns, rows)) {
+    canvas->offscreen = Offscreen_Create(oversampling * width, oversampling * height);
+    if (canvas->offscreen == NULL) {
         Canvas_Destroy(canvas);
         return NULL;
     }
-    OSMesaPixelStore(OSMESA_Y_UP, 0);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glGenTextures(3, canvas->shadowTextures);
     for (int32_t i = 0; i < TEXTURES; i++) {
         glGenTextures(1, &canvas->textures[i].name);
@@ -84,10 +76,7 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling)
 
 void Canvas_Destroy(Canvas* canvas)
 {
-    if (canvas->context != NULL) {
-        OSMesaDestroyContext(canvas->context);
-    }
-    free(canvas->buffer);
+    Offscreen_Destroy(canvas->offscreen);
     free(canvas->sheets);
     free(canvas->bodies);
     free(canvas->lines);
@@ -197,17 +186,9 @@ static void SetCamera(const Canvas* canvas)
 {
     const GameCamera* camera = &canvas->camera;
     SetProjection(camera, (float)canvas->width / (float)canvas->height);
-    float right[3], up[3], back[3], matrix[16] = { 0.0f };
+    float right[3], up[3], back[3];
     GameCamera_GetAxes(camera, right, up, back);
-    for (int i = 0; i < 3; i++) {
-        matrix[4 * i] = right[i];
-        matrix[4 * i + 1] = up[i];
-        matrix[4 * i + 2] = back[i];
-    }
-    matrix[15] = 1.0f;
-    glMatrixMode(GL_MODELVIEW);
-    glLoadMatrixf(matrix);
-    glTranslatef(-camera->eye[0], -camera->eye[1], -camera->eye[2]);
+    Offscreen_LookFrom(camera->eye, right, up, back);
 }
 
 static void SetColor(Color color)
@@ -240,26 +221,6 @@ static float GetReach(const GameCamera* camera)
 {
     float right[3], up[3], back[3], away = GameCamera_GetAxes(camera, right, up, back);
     return 1.5f * GameCamera_GetHalfHeight(camera, away);
-}
-
-/* One pass of a box filter over rows; `step` from pixel to pixel, `stride` from row to row. */
-static void BlurRows(uint8_t* pixels, int32_t size, int32_t step, int32_t stride, int32_t radius)
-{
-    uint8_t line[SHADOW_SIZE];
-    for (int32_t y = 0; y < size; y++) {
-        uint8_t* row = pixels + y * stride;
-        int32_t sum = 0;
-        for (int32_t x = 0; x < size + radius; x++) {
-            sum += x < size ? row[x * step] : 0;
-            sum -= x > 2 * radius ? line[x - 2 * radius - 1] : 0;
-            if (x < size) {
-                line[x] = row[x * step];
-            }
-            if (x >= radius) {
-                row[(x - radius) * step] = (uint8_t)(sum / (2 * radius + 1));
-            }
-        }
-    }
 }
 
 static void DrawFlat(const Canvas* canvas)
@@ -297,7 +258,7 @@ static void SetShadowMatrices(const Canvas* canvas, int axis, const float* light
 /* All as the light sees it on the ground, blurred, as a texture. Uses a corner of the picture: it comes first. */
 static void MakeShadow(const Canvas* canvas, int axis)
 {
-    int32_t size = SHADOW_SIZE;
+    int32_t size = OFFSCREEN_SHADOW_SIZE;
     while (size > canvas->oversampling * canvas->width || size > canvas->oversampling * canvas->height) {
         size /= 2;
     }
@@ -308,15 +269,7 @@ static void MakeShadow(const Canvas* canvas, int axis)
     glDisable(GL_DEPTH_TEST);
     glColor3f(1.0f, 1.0f, 1.0f);
     DrawFlat(canvas);
-    static uint8_t mask[SHADOW_SIZE * SHADOW_SIZE];
-    glReadPixels(0, 0, size, size, GL_RED, GL_UNSIGNED_BYTE, mask);
-    for (int pass = 0; pass < 2; pass++) {
-        BlurRows(mask, size, 1, size, size / 100 + 1);
-        BlurRows(mask, size, size, 1, size / 100 + 1);
-    }
-    glBindTexture(GL_TEXTURE_2D, canvas->shadowTextures[axis]);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_ALPHA, size, size, 0, GL_ALPHA, GL_UNSIGNED_BYTE, mask);
+    Offscreen_MakeShadow(canvas->shadowTextures[axis], size, size / 100 + 1, 2);
 }
 
 /* The ground fades into the background. */
@@ -545,7 +498,6 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
     DrawOverlay(&canvas->overlay, scale);
     glDisable(GL_BLEND);
     glDisableClientState(GL_VERTEX_ARRAY);
-    glFinish();
-    Image_Shrink(image, canvas->buffer, columns, 4, canvas->oversampling);
+    Offscreen_Shrink(canvas->offscreen, image, canvas->oversampling);
     return true;
 }

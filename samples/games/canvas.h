@@ -1,4 +1,4 @@
-/* A picture of a game, by OpenGL in software (OSMesa), as ../draw.h makes those of the scenes. A game adds what there
+/* A picture of a game, drawn without a window (../offscreen.h), as ../draw.h draws scenes. A game adds what there
    is to see, in any order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until
    then. */
 #ifndef CANVAS_H
@@ -68,8 +68,8 @@ typedef struct CanvasBody {
 
 typedef struct Canvas Canvas;
 
-/* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or when OSMesa
-   cannot do this size. One canvas at a time. */
+/* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or where no
+   OpenGL can do this size. One canvas at a time. */
 Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling);
 void Canvas_Destroy(Canvas* canvas);
 

@@ -1,6 +1,6 @@
 #include "canvas_parts.h"
 
-#include <GL/osmesa.h>
+#include <GL/gl.h>
 #include <math.h>
 
 /* Corners of the circles of a body: small ones look round with fewer. */
