@@ -131,7 +131,7 @@ FUZZERS := calls load mesh replay spoil
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
                   frame_layout results reference trade sweep)
 # What `make contact` is made of beside its driver.
-CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_rest contact_sheets contact_meetings contact_folds)
+CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_rest contact_sheets contact_meetings contact_folds contact_bodies)
 # What is measured of sheets among bodies of Box2D.
 BOX2D_LAWS := $(BUILD)/tests/box2d_laws.cpp.o $(ADAPTER_OBJECTS)
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench*.c))

@@ -57,6 +57,9 @@ int main(int argc, char** argv)
     if (Contact_IsAsked("folds")) {
         Contact_MeasureFolds();
     }
+    if (Contact_IsAsked("bodies")) {
+        Contact_MeasureBodies();
+    }
     if (Contact_IsAsked("box2d")) {
         Contact_MeasureBox2d();
     }

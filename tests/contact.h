@@ -24,6 +24,7 @@ void Contact_MeasureRest(void);      /* contact_rest.c: drapes that come to rest
 void Contact_MeasureSheets(void);    /* contact_sheets.c: piles, folds, pieces; costs of pairs */
 void Contact_MeasureMeetings(void);  /* contact_meetings.c: sheets that meet sheets: momentum, heaps */
 void Contact_MeasureFolds(void);     /* contact_folds.c: pieces that fold over themselves */
+void Contact_MeasureBodies(void);    /* contact_bodies.c: bodies with mass that fall on a held cloth */
 void Contact_MeasureBox2d(void);     /* contact_box2d.cpp: sheets among bodies of Box2D */
 
 #endif

@@ -28,6 +28,7 @@ typedef struct kiriMeeting {
     kiriVec3 across;          /* plane normal of a planar sheet, local to the obstacle; else zero */
     double gap;               /* m: contact distance */
     double reach;             /* m: largest distance at which they may touch in the tick */
+    double near;              /* m: a point so near is a touch, wherever it goes */
     double square;            /* m: side of a grid square */
     int32_t squares, columns; /* grid squares along the side of a patch; patches in a row */
     double friction;          /* coefficient of the pair */
@@ -266,7 +267,7 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, kiriProbe_Velocity(meeting->sheet, vertex)));
     kiriNearest nearest;
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
-    if (share >= 1.0 && nearest.distance > (1.0 + NEARBY) * meeting->gap) {
+    if (share >= 1.0 && nearest.distance > meeting->near) {
         return false;
     }
     kiriVec3 there = kiriVec3_AddScaled(kiriVec3_AddScaled(from, share, way), -nearest.distance, nearest.normal);
@@ -383,8 +384,8 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, local, meeting->across);
     kiriVec3 on = kiriObstacle_PointToWorld(obstacle, kiriVec3_AddScaled(local, -nearest.distance, nearest.normal));
     return TouchMixed(meeting, v, share, 3, kiriObstacle_PointToWorld(obstacle, local),
-                      kiriObstacle_ToWorld(obstacle, nearest.normal), nearest.distance, (1.0 + NEARBY) * meeting->gap,
-                      on, meeting->gap, touch);
+                      kiriObstacle_ToWorld(obstacle, nearest.normal), nearest.distance, meeting->near, on, meeting->gap,
+                      touch);
 }
 
 /* Lists the coarse triangles nearby, ascending: a side is so long that an arc of the obstacle fits between its ends. */
@@ -485,7 +486,7 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriVec3 normal = kiriVec3_Scale(kiriVec3_Dot(sum, point->out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
     double above = height * kiriVec3_Dot(normal, point->out) - gap;
     return IsTangentTo(point, normal) &&
-           TouchMixed(meeting, v, share, 3, at, normal, above, NEARBY * gap, point->at, gap, touch);
+           TouchMixed(meeting, v, share, 3, at, normal, above, meeting->near - meeting->gap, point->at, gap, touch);
 }
 
 /* Returns true if the line of the point meets a box (slab test). */
@@ -723,7 +724,7 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
     double above = height * kiriVec3_Dot(normal, point->out) - gap, shares[2] = { 1.0 - share, share };
     return IsTangentTo(point, normal) &&
            TouchMixed(meeting, (const int32_t[2]){ a, b }, shares, 2, kiriVec3_AddScaled(point->at, height, point->out),
-                      normal, above, NEARBY * gap, point->at, gap, touch);
+                      normal, above, meeting->near - meeting->gap, point->at, gap, touch);
 }
 
 static bool MeetsBox(const void* context, const kiriBox* box)
@@ -832,6 +833,22 @@ static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
            kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(box, obstacle->position);
 }
 
+/* Returns how far the forces of the last tick could move the frames that bear them in this tick, m. A heavy obstacle
+   stretches the sheet: a point of it that slips off moves by hundreds of g. */
+static double WayUnderLoad(const kiriSheetData* sheet, const kiriObstacleData* obstacle, double dt)
+{
+    double fastest = 0.0;
+    KIRI_EACH(const kiriTouch, touch, sheet->touches.last.touches) {
+        if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) &&
+            kiriObstacle_SlotOfKey(touch->key) == (int32_t)(obstacle->id & (KEY_SLOTS - 1))) {
+            double mass = sheet->frames.data[kiriSkin_LeadingFrame(&sheet->vertexSkin, touch->vertex[0])].mass;
+            double force = kiriVec3_Length(kiriTouches_ForceOf(sheet, touch->key));
+            fastest = force > fastest * mass ? force / mass : fastest;
+        }
+    }
+    return dt * dt * fastest;
+}
+
 static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                                double speed, int32_t yield)
 {
@@ -840,6 +857,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             obstacle,
                             { 0.0, 0.0, 0.0 },
                             0.5 * sheet->settings.contactThickness,
+                            0.0,
                             0.0,
                             0.0,
                             1,
@@ -852,8 +870,8 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     meeting.square = sheet->mesh.step * sheet->mesh.squares.side;
     meeting.squares = PatchSide(sheet, meeting.square);
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
-    meeting.reach =
-        kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + (1.0 + NEARBY) * meeting.gap;
+    meeting.near = (1.0 + NEARBY) * meeting.gap + WayUnderLoad(sheet, obstacle, search->dt);
+    meeting.reach = kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + meeting.near;
     if (sheet->settings.mechanics.planar) {
         meeting.across = kiriObstacle_ToLocal(obstacle, sheet->settings.mechanics.axes.d);
     }
