@@ -1,7 +1,5 @@
 #include "kiri_archive.h"
 
-#include <string.h>
-
 enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 4 << 20 }; /* memory limit of arrays: for each byte read, plus a constant */
 
 kiriArchive kiriArchive_Measure(void)
@@ -49,7 +47,7 @@ static void CopyNumbers(uint8_t* to, const uint8_t* from, int32_t width, int64_t
         return;
     }
     for (int64_t n = 0; n < count * width; n += width) {
-        for (int32_t k = 0; k < width; ++k) {
+        KIRI_TIMES(k, width) {
             to[n + k] = from[n + width - 1 - k];
         }
     }
@@ -252,7 +250,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
         break;
     case KIRI_MEMBER_BOOLS:
         /* Writes any byte but 0 as 1, for memory may be uninitialised. Refuses other bytes than 0 and 1 of a save. */
-        for (int32_t k = 0; !archive->isWhole && k < field->size; ++k) {
+        KIRI_TIMES_WHILE(!archive->isWhole, k, field->size) {
             uint8_t byte = kiriArchive_Reads(archive) ? 0 : at[k] != 0;
             kiriArchive_Numbers(archive, &byte, 1, 1);
             if (kiriArchive_Reads(archive)) {
@@ -327,7 +325,7 @@ static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, 
 static bool IsFlat(const kiriTable* table)
 {
     bool isFlat = true;
-    for (int32_t k = 0; isFlat && k < table->count; ++k) {
+    KIRI_TIMES_WHILE(isFlat, k, table->count) {
         const kiriMember* field = &table->fields[k];
         isFlat = field->kind <= KIRI_MEMBER_BOOLS || field->kind == KIRI_MEMBER_UNHASHED ||
                  (field->kind == KIRI_MEMBER_PART && IsFlat(field->table()));

@@ -6,8 +6,6 @@
 #include "kiri_base.h"
 #include "kiri_array.h"
 
-#include <string.h>
-
 KIRI_C_BEGIN
 
 #define KIRI_HASH_START UINT64_C(14695981039346656037)

@@ -1,7 +1,5 @@
 #include "kiri_array.h"
 
-#include <string.h>
-
 kiriArrayHeader kiriArray_GetHeader(const void* array)
 {
     kiriArrayHeader header;
@@ -118,7 +116,7 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
         gap = 3 * gap + 1;
     }
     for (; gap > 0; gap /= 3) {
-        for (int32_t i = gap; i < count; ++i) {
+        KIRI_FROM_TO(i, gap, count) {
             int32_t moving = items[i], j = i;
             for (; j >= gap && before(context, moving, items[j - gap]); j -= gap) {
                 items[j] = items[j - gap];
@@ -147,13 +145,13 @@ enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
 static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int shift)
 {
     int32_t first[DIGITS + 1] = { 0 };
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         first[((items[i] >> shift) & (DIGITS - 1)) + 1] += 1;
     }
-    for (int32_t d = 0; d < DIGITS; ++d) {
+    KIRI_TIMES(d, DIGITS) {
         first[d + 1] += first[d];
     }
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         to[first[(items[i] >> shift) & (DIGITS - 1)]++] = items[i];
     }
 }
@@ -172,7 +170,7 @@ void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
         return;
     }
     int32_t all = 0, *from = items, *to = room;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         KIRI_ASSERT(items[i] >= 0);
         all |= items[i];
     }
@@ -240,7 +238,7 @@ static void ShrinkSpan(kiriSpan* span, kiriSpans* spans, void* array, size_t ite
         GiveRoom(spans, array, itemBytes, was, from);
         return;
     }
-    for (int size = to; size < from; ++size) {
+    KIRI_FROM_TO(size, to, from) {
         GiveRoom(spans, array, itemBytes, was + ((int32_t)1 << size), size);
     }
 }
@@ -273,7 +271,7 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
 
 bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
 {
-    memset(keep, 0, sizeof(*keep));
+    KIRI_CLEAR(keep);
     return kiriArray_Reserve(memory, &keep->to, items);
 }
 
@@ -288,7 +286,7 @@ void kiriKeep_Clear(kiriKeep* keep, int32_t items)
 void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
 {
     KIRI_ASSERT(keep->count == 0 && keep->first == 0);
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         KIRI_ASSERT(items[k] < keep->to.count && (k == 0 || items[k] > items[k - 1]));
         keep->to.data[items[k]] = k;
     }
@@ -298,7 +296,7 @@ void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
 void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
 {
     KIRI_ASSERT(keep->count == count);
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         keep->to.data[items[k]] = KIRI_NONE;
     }
     keep->count = 0;
@@ -356,12 +354,12 @@ static int32_t NewLink(const kiriKeep* keep, int32_t* next, size_t strideBytes, 
 
 void kiriKeep_Relink(const kiriKeep* keep, int32_t* heads, int32_t headCount, int32_t* next, size_t strideBytes)
 {
-    for (int32_t i = keep->first; i < keep->to.count; ++i) {
+    KIRI_FROM_TO(i, keep->first, keep->to.count) {
         int32_t* link = LinkOf(next, strideBytes, i);
         KIRI_ASSERT(*link < i);
         *link = NewLink(keep, next, strideBytes, *link);
     }
-    for (int32_t k = 0; k < headCount; ++k) {
+    KIRI_TIMES(k, headCount) {
         heads[k] = NewLink(keep, next, strideBytes, heads[k]);
     }
 }

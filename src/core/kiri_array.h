@@ -36,8 +36,8 @@ typedef KIRI_ARRAY(float) kiriFloats;
 #define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
-#define KIRI_EACH_INDEX(i, array) for (int32_t i = 0; i < (array).count; ++i)
-#define KIRI_EACH_INDEX_WHILE(condition, i, array) for (int32_t i = 0; (condition) && i < (array).count; ++i)
+#define KIRI_EACH_INDEX(i, array) KIRI_TIMES(i, (array).count)
+#define KIRI_EACH_INDEX_WHILE(condition, i, array) KIRI_TIMES_WHILE(condition, i, (array).count)
 #define KIRI_EACH_OF(Type, item, array)                                                                                \
     for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
          ++item##At)
@@ -162,7 +162,7 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
                      int32_t count);
 
 /* Loops over the indices of a span. */
-#define KIRI_EACH_IN(i, span) for (int32_t i = (span).first; i < (span).first + (span).count; ++i)
+#define KIRI_EACH_IN(i, span) KIRI_FROM_TO(i, (span).first, (span).first + (span).count)
 
 /* Union-find over indices. The caller owns the array `parent`, with an entry for each item. The root of a set is its
    lowest item, in any order of joins. */
@@ -170,7 +170,7 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
 /* Makes each item a separate set. */
 static inline void kiriUnion_Init(int32_t* parent, int32_t count)
 {
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         parent[i] = i;
     }
 }

@@ -1,7 +1,6 @@
 #include "kiri_base.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #if defined(KIRI_ASSERTS)
 #include <stdio.h>

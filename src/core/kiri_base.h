@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #if defined(_MSC_VER) && !defined(__clang__)
 #include <intrin.h>
@@ -34,6 +35,14 @@ enum { KIRI_NONE = -1 };
 #define kiriMin(a, b) ((a) < (b) ? (a) : (b))
 #define kiriMax(a, b) ((a) > (b) ? (a) : (b))
 #define kiriClamp(x, low, high) ((x) < (low) ? (low) : (x) > (high) ? (high) : (x))
+
+/* Loops: `i` goes from 0, or from `first`, up to and without `end`. */
+#define KIRI_TIMES(i, end) KIRI_FROM_TO(i, 0, end)
+#define KIRI_TIMES_WHILE(condition, i, end) for (int32_t i = 0; (condition) && i < (end); ++i)
+#define KIRI_FROM_TO(i, first, end) for (int32_t i = (first); i < (end); ++i)
+
+/* Sets all bytes of what a pointer points to to zero. */
+#define KIRI_CLEAR(pointer) memset(pointer, 0, sizeof(*(pointer)))
 
 /* Binary search: sets `at` to the first index from `first` to `end` for which isBelow is false, or to `end`. isBelow is
    an expression of the index `middle`; it is true for the items up to some index, and false from there on. */

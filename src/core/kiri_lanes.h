@@ -93,7 +93,7 @@ static inline kiriLanes kiriLanes_Load(const float* four)
 }
 static inline void kiriLanes_Store(float* four, kiriLanes a)
 {
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         four[k] = a.at[k];
     }
 }
@@ -120,7 +120,7 @@ static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* other
 }
 static inline void kiriLanes_StoreThree(float* three, kiriLanes a)
 {
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         three[k] = a.at[k];
     }
 }

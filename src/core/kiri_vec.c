@@ -15,7 +15,7 @@ double kiriAngle(double sine, double cosine)
 {
     double length = sqrt(sine * sine + cosine * cosine), sum = 0.0;
     double t = length > 0.0 ? sine / (length + fabs(cosine)) : 0.0;
-    for (int k = 0; k < 2; ++k) { /* t is the tangent of half the angle, then of a quarter and of an eighth */
+    KIRI_TIMES(k, 2) { /* t is the tangent of half the angle, then of a quarter and of an eighth */
         t /= 1.0 + sqrt(1.0 + t * t);
     }
     for (int n = 15; n > 0; n -= 2) {
@@ -90,7 +90,7 @@ static kiriVec3 NewtonTurn(kiriMat3 r, kiriMat3 m, kiriVec3 t, double along)
 kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m)
 {
     kiriMat3 r = start;
-    for (int iteration = 0; iteration < 40; ++iteration) {
+    KIRI_TIMES(iteration, 40) {
         kiriVec3 turn =
             kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(r.u, m.u), kiriVec3_Cross(r.v, m.v)), kiriVec3_Cross(r.d, m.d));
         double along = fabs(kiriVec3_Dot(r.u, m.u) + kiriVec3_Dot(r.v, m.v) + kiriVec3_Dot(r.d, m.d));

@@ -38,7 +38,7 @@ typedef struct kiriLatticePoint {
 } kiriLatticePoint;
 
 /* Loops over the corners of a triangle. */
-#define KIRI_EACH_CORNER(k) for (int k = 0; k < 3; ++k)
+#define KIRI_EACH_CORNER(k) KIRI_TIMES(k, 3)
 
 /* Twice the signed area of a, b, c: positive when counter-clockwise. Exact. */
 static inline int64_t kiriOrient(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)

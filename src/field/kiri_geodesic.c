@@ -36,7 +36,7 @@ bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, i
 void kiriField_Reset(kiriField* field)
 {
     KIRI_ASSERT(field->stage == REPAIR_NONE);
-    for (int k = -1; k < KIRI_RING; ++k) {
+    KIRI_FROM_TO(k, -1, KIRI_RING) {
         kiriIndices* list = k < 0 ? &field->settled : &field->ring[k];
         KIRI_EACH(const int32_t, cell, *list) {
             kiriField_Forget(field, *cell);
@@ -144,7 +144,7 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
     }
     field->nearest = KIRI_FAR;
     field->seeds.count = 0;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriSeed seed = field->seeds.data[i], value = ValueOf(field, seed.cell);
         /* In a repair a cell that has the very value of the seed is dirty itself: it passes its value on. */
         if (BucketOf(seed.distance) >= field->bucket + KIRI_RING) {
@@ -174,7 +174,7 @@ static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kir
         const int32_t* has = field->distance.data + from.cell;
         const int32_t passed = from.distance - (from.owner != KIRI_NONE); /* a lower owner wins where both are as far */
         uint32_t hits = 0;
-        for (int k = 0; k < 4; ++k) {
+        KIRI_TIMES(k, 4) {
             hits |= (uint32_t)(passed + KIRI_UNIT < has[steps[k].cell]) << k;
             hits |= (uint32_t)(passed + KIRI_UNIT_DIAGONAL < has[steps[k + 4].cell]) << (k + 4);
             hits |= (uint32_t)(passed + KIRI_UNIT_KNIGHT < has[steps[k + 8].cell]) << (k + 8);
@@ -244,7 +244,7 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
     if (!kiriArray_Resize(memory, &field->seeds, seedCount)) {
         return false;
     }
-    for (int32_t i = 0; i < seedCount; ++i) {
+    KIRI_TIMES(i, seedCount) {
         KIRI_ASSERT(seeds[i].cell >= 0 && seeds[i].cell < field->distance.count && seeds[i].distance >= 0);
         field->seeds.data[i] = seeds[i];
     }
@@ -468,7 +468,7 @@ static inline ScanKey PullOpen(const Scan* scan, int32_t cell, bool forth, ScanK
     static const uint8_t steps[2][KIRI_OPEN_STEPS / 2] = { { 15, 14, 13, 12, 7, 6, 3, 2 },
                                                            { 8, 9, 10, 11, 4, 5, 0, 1 } };
     const kiriStep* to = scan->grid->openSteps;
-    for (int k = 0; k < KIRI_OPEN_STEPS / 2; ++k) {
+    KIRI_TIMES(k, KIRI_OPEN_STEPS / 2) {
         int32_t length = k < 4 ? KIRI_UNIT_KNIGHT : k < 6 ? KIRI_UNIT_DIAGONAL : KIRI_UNIT;
         key = Nearer(key, scan->keys[cell + to[steps[forth][k]].cell], length);
     }
@@ -499,7 +499,7 @@ static inline bool ScanOnce(const Scan* scan, bool forth)
 static bool ScanAll(const Scan* scan)
 {
     enum { MOST_SCAN_PAIRS = 4 };
-    for (int pairs = 0; pairs < MOST_SCAN_PAIRS; ++pairs) {
+    KIRI_TIMES(pairs, MOST_SCAN_PAIRS) {
         bool changes = ScanOnce(scan, true);
         if ((!changes && pairs > 0) || !ScanOnce(scan, false)) {
             return true;
@@ -525,7 +525,7 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
         scan.keys[seed.cell] = Nearer(scan.keys[seed.cell], KeyOf(seed.distance, seed.owner), 0);
     }
     bool isDone = ScanAll(&scan);
-    for (int32_t k = 0; isDone && k < count; ++k) {
+    KIRI_TIMES_WHILE(isDone, k, count) {
         int32_t cell = cells[k], distance = (int32_t)(scan.keys[cell] >> 32);
         if (distance != KIRI_FAR) {
             SetValue(field, (kiriSeed){ cell, distance, (int32_t)(uint32_t)scan.keys[cell] });
@@ -587,7 +587,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
     block->cells = cells;
     block->nextOfFrame = next;
     block->previousOfFrame = KIRI_NONE;
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+    KIRI_TIMES(k, KIRI_BLOCK_CELLS) {
         block->fromSite[k] = block->fromBorder[k] = KIRI_FAR;
     }
     if (next != KIRI_NONE) {
@@ -631,7 +631,7 @@ void kiriReaches_Forget(kiriReaches* reaches, int32_t frame)
 
 void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames)
 {
-    for (int32_t frame = frames->first; frame < reaches->ofFrame.count; ++frame) {
+    KIRI_FROM_TO(frame, frames->first, reaches->ofFrame.count) {
         int32_t to = kiriKeep_To(frames, frame);
         KIRI_ASSERT(to != KIRI_NONE || reaches->ofFrame.data[frame] == KIRI_NONE);
         for (int32_t b = reaches->ofFrame.data[frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {

@@ -1,7 +1,5 @@
 #include "kiri_grid.h"
 
-#include <string.h>
-
 /* Costs of work, in parts of an item of the quota; a part is about 5 ns. */
 enum {
     PARTS_AN_ITEM = 16,
@@ -203,7 +201,7 @@ static void RemoveFace(kiriGrid* grid, int32_t f)
 {
     KIRI_ASSERT(f >= 0 && f < grid->faces.count && grid->faces.data[f].cell[0] != KIRI_NONE);
     kiriFace* face = &grid->faces.data[f];
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         int32_t cell = face->cell[k], *link = &grid->cells.data[cell].firstFace;
         while (*link != f) {
             KIRI_ASSERT(*link != KIRI_NONE);
@@ -303,7 +301,7 @@ static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t squa
     kiriNodeRange range = work->ranges.data[square];
     int32_t triangle = TriangleAt(work, mesh, i);
     KIRI_ASSERT(i >= range.first && i < range.end);
-    for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+    KIRI_FROM_TO(h, 3 * triangle, 3 * triangle + 3) {
         int32_t twin = kiriMesh_Twin(mesh, h), j;
         if (twin < h || kiriMesh_IsOpen(mesh, h)) {
             continue;
@@ -327,7 +325,7 @@ static bool JoinTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t squa
         return false;
     }
     kiriUnion_Init(work->parent.data, work->parent.count);
-    for (int32_t i = range.first; i < range.end; ++i) {
+    KIRI_FROM_TO(i, range.first, range.end) {
         JoinEntry(work, mesh, square, i);
     }
     work->debt += COST_OF_JOIN * (int64_t)work->parent.count;
@@ -388,7 +386,7 @@ static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, 
     KIRI_EACH_CORNER(i) {
         part.at[i] = kiriVec2_Make((double)corners[i].x - low.x, (double)corners[i].y - low.y);
     }
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         ClipAtSide(&part, k / 2, k % 2 == 1, mesh->squares.side);
     }
     KIRI_EACH_INDEX(i, part) {
@@ -408,7 +406,7 @@ static bool FindNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
     kiriGridWork* work = grid->work;
     kiriNodeRange range = work->ranges.data[square];
     KIRI_ASSERT((work->squareFlags.data[square] & SQUARE_COLLECTED) != 0 && work->newCells.count == 0);
-    for (int32_t i = range.first; i < range.end; ++i) {
+    KIRI_FROM_TO(i, range.first, range.end) {
         int32_t root = range.first + kiriUnion_Root(work->parent.data, i - range.first);
         int32_t triangle = TriangleAt(work, mesh, i), *rank = &grid->nodeCell.data[work->entries.data[i]];
         const kiriNewCell none = { triangle, KIRI_NONE, { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 } };
@@ -599,7 +597,7 @@ static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
 {
     kiriGridWork* work = grid->work;
     kiriNodeRange range = work->ranges.data[square];
-    for (int32_t i = range.first; i < range.end; ++i) {
+    KIRI_FROM_TO(i, range.first, range.end) {
         int32_t triangle = TriangleAt(work, mesh, i), *cell = &grid->nodeCell.data[work->entries.data[i]];
         KIRI_ASSERT(*cell >= 0 && *cell < work->newCells.count);
         *cell = work->newCells.data[*cell].cell;
@@ -796,12 +794,12 @@ static void MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
     KIRI_ASSERT_HAS(grid->work->facesDirty, item);
     int32_t square = grid->work->facesDirty.data[item];
     int32_t place[2] = { square % squares->columns, square / squares->columns };
-    for (int32_t axis = 0; axis < 2; ++axis) {
+    KIRI_TIMES(axis, 2) {
         if (place[axis] > 0) {
             MakeSide(grid, mesh, square - (axis == 0 ? 1 : squares->columns), square, axis);
         }
     }
-    for (int32_t axis = 0; axis < 2; ++axis) {
+    KIRI_TIMES(axis, 2) {
         int32_t beyond = square + (axis == 0 ? 1 : squares->columns);
         if (place[axis] + 1 < (axis == 0 ? squares->columns : squares->rows) &&
             (grid->work->squareFlags.data[beyond] & SQUARE_FACES_DIRTY) == 0) {
@@ -877,7 +875,7 @@ static void AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
 static void AddSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps, int32_t from, int32_t end)
 {
     KIRI_ASSERT(0 <= from && from <= end && end <= steps->end[2]);
-    for (int32_t s = from; s < end; ++s) {
+    KIRI_FROM_TO(s, from, end) {
         AddStep(grid, memory, kiriSteps_At(steps, s));
     }
 }
@@ -885,7 +883,7 @@ static void AddSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps,
 static bool AreStepsSame(const kiriSteps* a, const kiriSteps* b)
 {
     bool same = a->end[0] == b->end[0] && a->end[1] == b->end[1] && a->end[2] == b->end[2];
-    for (int32_t s = 0; same && s < a->end[2]; ++s) {
+    KIRI_TIMES_WHILE(same, s, a->end[2]) {
         same = kiriSteps_At(a, s).cell == kiriSteps_At(b, s).cell;
     }
     return same;
@@ -928,7 +926,7 @@ static bool IsStepBefore(const kiriGrid* grid, kiriStep a, kiriStep b)
 static void SortSteps(kiriGrid* grid, int32_t from)
 {
     kiriStep* steps = grid->work->steps.data;
-    for (int32_t i = from + 1; i < grid->work->steps.count; ++i) {
+    KIRI_FROM_TO(i, from + 1, grid->work->steps.count) {
         kiriStep step = steps[i];
         int32_t j = i;
         for (; j > from && IsStepBefore(grid, step, steps[j - 1]); --j) {
@@ -970,7 +968,7 @@ static void AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
     const kiriCell* cells = grid->cells.data;
     int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     KIRI_ASSERT(grid->work->mark.count == grid->cells.count);
-    for (int axis = 0; axis < 2; ++axis) {
+    KIRI_TIMES(axis, 2) {
         for (int32_t f = cells[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&faces[f], c)) {
             int32_t between = kiriFace_Other(&faces[f], c);
             int32_t g = kiriFace_Axis(&faces[f]) == axis ? cells[between].firstFace : KIRI_NONE;
@@ -1035,11 +1033,11 @@ static void MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
 static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps)
 {
     int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
-    for (int32_t i = 0; i < steps->end[1]; ++i) {
+    KIRI_TIMES(i, steps->end[1]) {
         kiriStep to = kiriSteps_At(steps, i);
         bool isStraight = i < steps->end[0];
         kiriSteps on = kiriGrid_GetSteps(grid, to.cell);
-        for (int32_t j = isStraight ? on.end[0] : 0; j < on.end[isStraight]; ++j) {
+        KIRI_FROM_TO(j, isStraight ? on.end[0] : 0, on.end[isStraight]) {
             kiriStep next = kiriSteps_At(&on, j);
             if (!isStraight && mark[next.cell] == first) {
                 mark[next.cell] = first + 1;
@@ -1162,7 +1160,7 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     kiriArray_Set(&grid->whole, 0);
     kiriArray_Set(&work->squareFlags, 0);
     kiriArray_Set(&grid->squareCell, KIRI_NONE);
-    for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
+    KIRI_TIMES(k, KIRI_OPEN_STEPS) {
         grid->openSteps[k] = openSteps[k];
         grid->openSteps[k].cell = openSteps[k].v * mesh->squares.columns + openSteps[k].u;
     }
@@ -1293,7 +1291,7 @@ void kiriGrid_Reset(kiriGrid* grid)
     grid->materials.count = grid->stretches.count = grid->unusedMaterials.count = grid->unusedStretches.count = 0;
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
-    memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
+    KIRI_CLEAR(&grid->stepRoom);
     if (grid->work != NULL) {
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         EndGridUpdate(grid->work);
@@ -1304,7 +1302,7 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
                    const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
-    for (int32_t k = 0; k < goneCount; ++k) {
+    KIRI_TIMES(k, goneCount) {
         KIRI_ASSERT(kiriGrid_IsCell(grid, gone[k]));
         kiriCell* cell = &grid->cells.data[gone[k]];
         int32_t* link = &grid->squareCell.data[cell->square];

@@ -2,8 +2,6 @@
 #include "../core/kiri_array.h"
 #include "kiri_site.h"
 
-#include <string.h>
-
 /* Links and corners are hashed and compared byte by byte. */
 typedef char LinkHasNoPadding[sizeof(kiriLink) == 4 * sizeof(int32_t) + 25 * sizeof(double) ? 1 : -1];
 typedef char CornerHasNoPadding[sizeof(kiriCorner) == 6 * sizeof(int32_t) + 9 * sizeof(double) ? 1 : -1];
@@ -141,7 +139,7 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
     found->count = 0;
     work->marks.data[face] = next;
     bool ok = kiriArray_Push(u->memory, found, face);
-    for (int32_t k = 0; ok && k < found->count; ++k) {
+    KIRI_TIMES_WHILE(ok, k, found->count) {
         kiriBorderFace from = BorderFaceOf(u, found->data[k]);
         ok = GatherFacesAt(u, &from, from.cell[0], mark, next);
         KIRI_EACH_STEP(step, u->grid, from.cell[0], KIRI_DIAGONAL) {
@@ -169,7 +167,7 @@ static void SetEnd(kiriLinkEnd* end, kiriEndKind kind, kiriVec2 at)
     end->kind = kind;
     end->at = at;
     end->edge = kiriVec2_Make(0.0, 0.0);
-    for (int k = 0; k < KIRI_CORNER_REGIONS; ++k) {
+    KIRI_TIMES(k, KIRI_CORNER_REGIONS) {
         end->region[k] = KIRI_NONE;
     }
 }
@@ -200,8 +198,8 @@ static bool FindRing(const LinkUpdate* u, const kiriFace* face, bool upper, int3
         return false;
     }
     kiriSteps a = kiriGrid_GetSteps(grid, face->cell[0]), b = kiriGrid_GetSteps(grid, face->cell[1]);
-    for (int32_t s = 0; s < a.end[0]; ++s) {
-        for (int32_t t = 0; t < b.end[0]; ++t) {
+    KIRI_TIMES(s, a.end[0]) {
+        KIRI_TIMES(t, b.end[0]) {
             kiriStep to = kiriSteps_At(&a, s), beside = kiriSteps_At(&b, t);
             if ((axis == 0 ? to.u : to.v) == way && (axis == 0 ? beside.u : beside.v) == way &&
                 kiriGrid_HasStep(grid, to.cell, beside.cell, KIRI_STRAIGHT) && !IsSliver(grid, to.cell) &&
@@ -223,7 +221,7 @@ static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool 
     int32_t ring[4], between = 0;
     kiriVec2 middle = face->stretch.middle;
     double half = upper ? 0.5 * face->stretch.width : -0.5 * face->stretch.width;
-    memset(end, 0, sizeof(*end));
+    KIRI_CLEAR(end);
     memcpy(end->cell, face->cell, sizeof(end->cell));
     SetEnd(end, KIRI_END_OPEN,
            kiriVec2_Add(middle, face->axis == 0 ? kiriVec2_Make(0.0, half) : kiriVec2_Make(half, 0.0)));
@@ -231,14 +229,14 @@ static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool 
     if (!FindRing(u, &u->grid->faces.data[face->face], upper, ring)) {
         return true;
     }
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         int32_t a = u->owner[ring[k]], b = u->owner[ring[(k + 1) % 4]];
         between += kiriMin(a, b) == face->region[0] && kiriMax(a, b) == face->region[1];
     }
     int32_t upperRight = u->grid->cells.data[ring[upper ? 2 : 1]].square;
     kiriVec2 node = kiriMesh_Local(u->mesh, kiriSquares_Corner(&u->mesh->squares, upperRight));
     SetEnd(end, between == 1 ? KIRI_END_CORNER : KIRI_END_INNER, node);
-    for (int k = 0; between == 1 && k < 4; ++k) {
+    KIRI_TIMES_WHILE(between == 1, k, 4) {
         AddEndRegion(end, u->owner[ring[k]]);
     }
     return between == 1 || isPart;
@@ -261,11 +259,11 @@ static kiriLinkEnds FindEnds(const LinkUpdate* u, const kiriLink* link, bool isP
     kiriLinkEnds ends = { 0 };
     double low = 0.0, high = 0.0;
     bool any = false, takesAll = HasOnlySlivers(u);
-    for (int k = 0; k < 2; ++k) { /* a border that closes on itself has no other */
+    KIRI_TIMES(k, 2) { /* a border that closes on itself has no other */
         SetEnd(&ends.end[k], KIRI_END_INNER, link->centroid);
         memcpy(ends.end[k].cell, u->work->stretch.data[0].cell, sizeof(ends.end[k].cell));
     }
-    for (int32_t k = 0; k < 2 * u->work->stretch.count; ++k) {
+    KIRI_TIMES(k, 2 * u->work->stretch.count) {
         kiriLinkEnd end;
         const kiriBorderFace* face = &u->work->stretch.data[k / 2];
         if ((takesAll || !face->isSliver) && FindBorderEnd(u, face, k % 2 != 0, isPart, &end)) {
@@ -347,7 +345,7 @@ static void AddRegionsAt(const LinkUpdate* u, NearRegions* near, const int32_t c
 {
     AddRegion(u, near, cells[0]);
     AddRegion(u, near, cells[1]);
-    for (int k = 0; k < around; ++k) {
+    KIRI_TIMES(k, around) {
         KIRI_EACH_STEP(step, u->grid, cells[k], KIRI_KNIGHT) {
             AddRegion(u, near, step.cell);
         }
@@ -502,7 +500,7 @@ static double FindFirstLimit(EndSearch* s)
     for (;;) {
         double limit = kiriFarAhead;
         int32_t first = KIRI_NONE;
-        for (int32_t k = 2; k < s->near.count; ++k) {
+        KIRI_FROM_TO(k, 2, s->near.count) {
             double by = LimitBy(s, k);
             first = by < limit ? k : first;
             limit = kiriMin(by, limit);
@@ -568,7 +566,7 @@ static bool FindSlitEnd(const EndSearch* s, kiriLinkEnd* end)
 {
     const LinkUpdate* u = s->u;
     double side = u->grid->side;
-    for (int32_t k = 0; k < 2 * u->work->stretch.count; ++k) {
+    KIRI_TIMES(k, 2 * u->work->stretch.count) {
         const kiriBorderFace* face = &u->work->stretch.data[k / 2];
         int32_t looks = 0;
         kiriSlitEnd slit;
@@ -612,14 +610,14 @@ static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
     const SiteReach* reach[3] = { 0 };
     double off[2] = { 0 };
     KIRI_EACH_INDEX(k, s->near) {
-        for (int r = 0; r < 3; ++r) {
+        KIRI_TIMES(r, 3) {
             reach[r] = s->grid->region[r] == s->near.region[k] ? &s->reach[k] : reach[r];
         }
     }
     if (s->grid->region[3] != KIRI_NONE || reach[0] == NULL || reach[1] == NULL || reach[2] == NULL) {
         return false;
     }
-    for (int round = 0; round < 12; ++round) {
+    KIRI_TIMES(round, 12) {
         kiriVec2 slope[2];
         off[0] = Farther(reach[0], reach[1], end->at, &slope[0]);
         off[1] = Farther(reach[0], reach[2], end->at, &slope[1]);
@@ -695,7 +693,7 @@ static bool IsLipSeen(EndSearch* s, int32_t edge, kiriVec2 at)
     double size = kiriVec2_Length(way), off = size > 0.0 ? 1e-3 * s->u->grid->side / size : 0.0;
     kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Make(-off * way.y, off * way.x));
     bool seen = true;
-    for (int32_t k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         if (!kiriSight_IsClear(&s->sight, s->reach[k].from, beside)) {
             seen = false;
             FindReach(s, k, beside, true);
@@ -708,7 +706,7 @@ static bool IsLipSeen(EndSearch* s, int32_t edge, kiriVec2 at)
    those that do try twice more. */
 static bool FindEndOnEdge(EndSearch* s, int32_t edge, kiriVec2 at, kiriLinkEnd* end)
 {
-    for (int round = 0; round < 2; ++round) {
+    KIRI_TIMES(round, 2) {
         if (!WalkToEnd(s, &edge, at, end)) {
             return false;
         }
@@ -729,7 +727,7 @@ static bool FindBorderBefore(const EndSearch* s, kiriVec2* at, kiriVec2* ahead)
     double side = s->u->grid->side, size = 0.0;
     kiriVec2 before = PointBefore(s), slope = { 0 };
     *at = before;
-    for (int round = 0; round < 8; ++round) {
+    KIRI_TIMES(round, 8) {
         double far = Farther(&s->reach[0], &s->reach[1], *at, &slope);
         size = kiriVec2_Length(slope);
         if (!(size > 1e-3)) {
@@ -833,7 +831,7 @@ static void SetSpurious(const LinkUpdate* u, kiriLink* link, kiriLinkEnds* ends)
     BorderLine line = LineBetween(SiteAt(u, link->i), SiteAt(u, link->j));
     double along = 0.5 * (AlongLine(&line, ends->end[0].at) + AlongLine(&line, ends->end[1].at));
     double half = 0.5 * kiriBorderLeast * u->grid->side;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         SetEnd(&ends->end[k], KIRI_END_INNER, PointOn(&line, k == 0 ? along - half : along + half));
     }
     SetStraight(link, ends);
@@ -1003,7 +1001,7 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
 static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     double sum = 0.0;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         double way = kiriVec2_Dot(kiriVec2_Sub(ends->end[k].at, link->crossing), link->tangent);
         way = k == 0 ? -way : way;
         sum += ends->end[k].kind == KIRI_END_OPEN && way > 0.0 ? way : 0.0;
@@ -1025,7 +1023,7 @@ static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds*
 {
     kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at), mean = { 0 };
     kiriVec2 straight = kiriVec2_Sub(SiteAt(u, link->j), SiteAt(u, link->i));
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
         if (fabs(along) < LEAST_ALONG || !ends->end[k].isExact) {
             return;
@@ -1109,7 +1107,7 @@ static bool MakeLinksAt(const LinkUpdate* u, int32_t face)
 static bool FindBetweenLimits(EndSearch* s, kiriVec2* at)
 {
     double limit[2], inside = 0.25 * s->u->grid->side;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         s->ahead = k == 0 ? -1.0 : 1.0;
         limit[k] = FindFirstLimit(s);
     }
@@ -1133,7 +1131,7 @@ static bool MakeShortLink(const LinkUpdate* u, const kiriLinkEnd* near, const in
     double most = 4.0 * u->grid->side;
     kiriLink* link = &made->link;
     StartEndSearch(&s, u, near, cells, 1);
-    memset(made, 0, sizeof(*made));
+    KIRI_CLEAR(made);
     made->ends.isShort = true;
     made->face = KIRI_NONE;
     link->i = s.near.region[0];
@@ -1143,7 +1141,7 @@ static bool MakeShortLink(const LinkUpdate* u, const kiriLinkEnd* near, const in
         !kiriSight_IsClear(&s.sight, near->look, at) || !IsSiteSeen(&s, 0) || !IsSiteSeen(&s, 1)) {
         return false;
     }
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         kiriLinkEnd* end = &made->ends.end[k];
         s.ahead = k == 0 ? -1.0 : 1.0;
         memcpy(end->cell, cells, sizeof(end->cell));
@@ -1198,7 +1196,7 @@ static bool MakeShortLinks(const LinkUpdate* u)
     KIRI_EACH_INDEX_WHILE(ok, k, u->links->next) {
         const kiriLink* link = &u->links->next.data[k];
         const kiriLinkEnds* ends = &u->work->nextEnds.data[k];
-        for (int e = 0; ok && !ends->isShort && e < 4; ++e) {
+        KIRI_TIMES_WHILE(ok && !ends->isShort, e, 4) {
             if (IsStale(u, e % 2 == 0 ? link->i : link->j)) {
                 ok = MakeShortLinksAt(u, &ends->end[e / 2], ends->end[e / 2].cell[e % 2], first);
             }
@@ -1281,7 +1279,7 @@ static int32_t ListLinksAt(const LinkUpdate* u, const kiriLinkEnd* end, int32_t 
 {
     const kiriLinks* links = u->links;
     int32_t count = 0;
-    for (int pair = 0; pair < KIRI_CORNER_REGIONS * KIRI_CORNER_REGIONS; ++pair) {
+    KIRI_TIMES(pair, KIRI_CORNER_REGIONS * KIRI_CORNER_REGIONS) {
         int32_t i = end->region[pair / KIRI_CORNER_REGIONS], j = end->region[pair % KIRI_CORNER_REGIONS];
         if (i == KIRI_NONE || j <= i) {
             continue;
@@ -1303,9 +1301,9 @@ static int32_t ListLinksAt(const LinkUpdate* u, const kiriLinkEnd* end, int32_t 
 /* Do the links form a ring: is each region between two of them? */
 static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t* list, int32_t count)
 {
-    for (int a = 0; a < KIRI_CORNER_REGIONS; ++a) {
+    KIRI_TIMES(a, KIRI_CORNER_REGIONS) {
         int32_t region = end->region[a], found = 0;
-        for (int32_t k = 0; k < count; ++k) {
+        KIRI_TIMES(k, count) {
             found += links->next.data[list[k]].i == region || links->next.data[list[k]].j == region;
         }
         if (found != (a < count ? 2 : 0)) {
@@ -1330,12 +1328,12 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
     if (count < 3 || count > 4 || list[0] != k || !IsRing(u->links, end, list, count)) {
         return true;
     }
-    for (int32_t a = 0; a < count; ++a) {
+    KIRI_TIMES(a, count) {
         const kiriLink* x = &next[list[a]];
         xx += x->span.x * x->span.x;
         xy += x->span.x * x->span.y;
         yy += x->span.y * x->span.y;
-        for (int32_t b = a + 1; b < count; ++b) {
+        KIRI_FROM_TO(b, a + 1, count) {
             const kiriLink* y = &next[list[b]];
             bool shareRegion = x->i == y->i || x->i == y->j || x->j == y->i || x->j == y->j;
             sum += shareRegion ? fabs(kiriVec2_Cross(x->span, y->span)) : 0.0;
@@ -1347,7 +1345,7 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
     }
     corner.count = count;
     corner.area = count == 3 ? sum / 6.0 : sum / 4.0;
-    for (int32_t c = 0; c < 4; ++c) {
+    KIRI_TIMES(c, 4) {
         corner.link[c] = c < count ? list[c] : KIRI_NONE;
         kiriVec2 s = c < count ? next[list[c]].span : kiriVec2_Make(0.0, 0.0);
         corner.weight[c] = kiriVec2_Make((yy * s.x - xy * s.y) / det, (xx * s.y - xy * s.x) / det);
@@ -1359,7 +1357,7 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
 static bool AreCornersKept(const LinkUpdate* u, int32_t k)
 {
     bool areKept = u->links->was.data[k] != KIRI_NONE;
-    for (int a = 0; areKept && a < 2 * KIRI_CORNER_REGIONS; ++a) {
+    KIRI_TIMES_WHILE(areKept, a, 2 * KIRI_CORNER_REGIONS) {
         const kiriLinkEnd* end = &u->work->nextEnds.data[k].end[a / KIRI_CORNER_REGIONS];
         int32_t region = end->region[a % KIRI_CORNER_REGIONS];
         areKept = end->kind != KIRI_END_CORNER || region == KIRI_NONE || !IsStale(u, region);
@@ -1405,7 +1403,7 @@ static bool ClipToSquare(const kiriMeshData* mesh, int32_t square, kiriLatticePo
     const double way[2] = { (double)b.x - a.x, (double)b.y - a.y };
     share[0] = 0.0;
     share[1] = 1.0;
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         double s = k % 2 == 0 ? -from[k / 2] : (double)mesh->squares.side - from[k / 2], v = way[k / 2];
         bool isEntry = (k % 2 == 0) == (v > 0.0);
         if (v != 0.0) {
@@ -1435,7 +1433,7 @@ static bool AddFoldPart(const LinkUpdate* u, const kiriFoldLine* fold, int32_t s
     kiriLatticePoint ends[2] = { kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h) };
     kiriVec2 start = kiriMesh_Local(mesh, fold->from), way = kiriVec2_Sub(kiriMesh_Local(mesh, fold->to), start);
     double length = kiriVec2_Length(way), along[2], share[2];
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         along[k] = kiriVec2_Dot(kiriVec2_Sub(kiriMesh_Local(mesh, ends[k]), start), way) / length;
     }
     int32_t twin = kiriMesh_Twin(mesh, h);
@@ -1454,7 +1452,7 @@ static bool AddFoldPart(const LinkUpdate* u, const kiriFoldLine* fold, int32_t s
 static bool IsPartBefore(const void* context, int32_t a, int32_t b)
 {
     const kiriFoldPart *x = (const kiriFoldPart*)context + a, *y = (const kiriFoldPart*)context + b;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         if (x->region[k] != y->region[k]) {
             return x->region[k] < y->region[k];
         }
@@ -1473,7 +1471,7 @@ static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32
     kiriNewLink made = { 0 };
     kiriLink* link = &made.link;
     double sum = 0.0, second = 0.0;
-    for (int32_t k = first; k < end; ++k) {
+    KIRI_FROM_TO(k, first, end) {
         const kiriFoldPart* part = &u->work->parts.data[order[k]];
         double length = part->to - part->from;
         link->width += length;
@@ -1595,7 +1593,7 @@ static bool BeginLinks(const LinkUpdate* u)
     for (; marks < faces; ++marks) {
         work->marks.data[marks] = FACE_PASSED;
     }
-    for (int32_t i = 0; i < u->siteCount; ++i) {
+    KIRI_TIMES(i, u->siteCount) {
         work->stale.data[i] = u->regions->dirty.data[i] ? REGION_STALE : 0;
     }
     work->running = true;
@@ -1648,7 +1646,7 @@ static bool AreEndsClean(const LinkUpdate* u, const kiriLinkEnds* ends)
 {
     NearRegions near;
     near.count = 0;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         KIRI_ASSERT(kiriGrid_IsCell(u->grid, ends->end[k].cell[0]) && kiriGrid_IsCell(u->grid, ends->end[k].cell[1]));
         AddRegionsAt(u, &near, ends->end[k].cell, 2);
     }
@@ -1680,13 +1678,13 @@ static bool KeepLinks(const LinkUpdate* u)
         for (; end < links->links.count && IsOfPair(&links->links.data[end], i, j); ++end) {
             areClean = areClean && AreEndsClean(u, &work->ends.data[end]);
         }
-        for (int32_t k = first; k < end; ++k) {
+        KIRI_FROM_TO(k, first, end) {
             work->to.data[k] = isKept || areClean ? k : KIRI_NONE;
         }
         work->due += areClean ? KEPT_ITEMS * (end - first) : 0;
         work->stale.data[i] |= mayKeep && !areClean ? REGION_TOUCHED : 0;
     }
-    for (int32_t i = 0; ok && i < u->siteCount; ++i) {
+    KIRI_TIMES_WHILE(ok, i, u->siteCount) {
         bool isTouched = (work->stale.data[i] & REGION_TOUCHED) != 0 && !u->regions->dirty.data[i];
         ok = !isTouched || ListFaces(u, i);
     }
@@ -1781,7 +1779,7 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
             link.i = kiriKeep_To(frames, link.i);
             link.j = kiriKeep_To(frames, link.j);
             KIRI_ASSERT(link.i != KIRI_NONE && link.j != KIRI_NONE);
-            for (int r = 0; r < 2 * KIRI_CORNER_REGIONS; ++r) {
+            KIRI_TIMES(r, 2 * KIRI_CORNER_REGIONS) {
                 int32_t* region = &ends.end[r / KIRI_CORNER_REGIONS].region[r % KIRI_CORNER_REGIONS];
                 *region = kiriKeep_To(frames, *region);
             }

@@ -58,7 +58,7 @@ static inline bool kiriLink_IsBefore(const kiriLink* a, const kiriLink* b)
 /* Sets stiffness and rest angle of the links of a fold. */
 static inline void kiriLink_SetFolds(kiriLink* links, int32_t count, int32_t fold, double hinge, double rest)
 {
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         if (links[k].fold == fold + 1) {
             links[k].hinge = hinge;
             links[k].rest = rest;

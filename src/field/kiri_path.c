@@ -149,7 +149,7 @@ static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
 static bool MayLookIn(const kiriSight* sight, int32_t cell)
 {
     KIRI_ASSERT_HAS(sight->grid->cells, cell);
-    for (int32_t k = 0; k < sight->regionCount; ++k) {
+    KIRI_TIMES(k, sight->regionCount) {
         if (sight->owner[cell] == sight->regions[k]) {
             return true;
         }
@@ -202,7 +202,7 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
             return (1.0 - entry) * ray.length <= least ? KIRI_SIGHT_CLEAR : KIRI_SIGHT_LOST;
         }
         const kiriSightEdge* edges = sight->grid->whole.data[square] ? NULL : EdgesOfSquare(sight, square, &count);
-        for (int32_t k = 0; k < count; ++k) {
+        KIRI_TIMES(k, count) {
             MeetEdge(&ray, &edges[k]);
         }
         SightAxis* axis = u.next < v.next ? &u : &v;
@@ -264,7 +264,7 @@ static void AddTurn(kiriTurns* turns, const kiriTurn* turn)
 static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 {
     int32_t count;
-    for (int32_t k = 0; k < turns->scannedCount; ++k) {
+    KIRI_TIMES(k, turns->scannedCount) {
         if (turns->scanned[k] == square) {
             return;
         }
@@ -275,7 +275,7 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
     }
     turns->scanned[turns->scannedCount++] = square;
     const kiriSightEdge* edges = EdgesOfSquare(sight, square, &count);
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         const kiriSightEdge* e = &edges[k];
         if (e->isTurn &&
             kiriVec2_Distance(e->head, turns->from) + kiriVec2_Distance(e->head, turns->to) <= turns->most &&
@@ -292,7 +292,7 @@ void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
     const kiriSquares* squares = &sight->mesh->squares;
     int32_t square = sight->grid->cells.data[cell].square;
     int32_t column = square % squares->columns, row = square / squares->columns;
-    for (int k = 0; k < 9; ++k) {
+    KIRI_TIMES(k, 9) {
         int32_t u = column + k % 3 - 1, v = row + k / 3 - 1, at = v * squares->columns + u;
         if (u >= 0 && u < squares->columns && v >= 0 && v < squares->rows && !sight->grid->whole.data[at] &&
             MayLookAt(sight, at)) {

@@ -150,13 +150,13 @@ static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 static bool MoveSites(const RegionUpdate* u)
 {
     int32_t* siteAt = u->regions->siteAt.data;
-    for (int32_t k = 0; k < u->moveCount; ++k) {
+    KIRI_TIMES(k, u->moveCount) {
         kiriSiteMove move = u->moves[k];
         if (!u->regions->flooding && move.was != KIRI_NONE && siteAt[move.was] == move.frame) {
             siteAt[move.was] = KIRI_NONE;
         }
     }
-    for (int32_t k = 0; k < u->moveCount; ++k) {
+    KIRI_TIMES(k, u->moveCount) {
         int32_t frame = u->moves[k].frame;
         KIRI_ASSERT(frame >= 0 && frame < u->siteCount && kiriGrid_IsCell(u->grid, u->sites[frame].cell));
         int32_t* at = &siteAt[u->sites[frame].cell];
@@ -174,26 +174,26 @@ static void FollowGrid(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
-    for (int32_t k = r->seen.gone; k < changes->gone.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.gone, changes->gone.count) {
         int32_t cell = changes->gone.data[k];
         AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, u->mesh, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
         SetBorder(r, cell, false);
     }
-    for (int32_t k = r->seen.material; k < changes->material.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.material, changes->material.count) {
         const kiriMaterialChange* change = &changes->material.data[k];
         int32_t owner = r->field.owner.data[change->cell];
         AddToRegion(u, owner, change->was, -1);
         AddToRegion(u, owner, kiriGrid_Material(u->grid, u->mesh, change->cell), 1);
     }
-    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.steps, changes->steps.count) {
         int32_t cell = changes->steps.data[k];
         KIRI_ASSERT(kiriGrid_IsCell(u->grid, cell));
         MarkRegionDirty(r, r->field.owner.data[cell]);
         kiriField_MarkStepsDirty(&r->field, cell);
     }
-    for (int32_t k = r->seen.edges; k < changes->edges.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.edges, changes->edges.count) {
         MarkRegionDirty(r, r->field.owner.data[changes->edges.data[k]]);
     }
 }
@@ -203,7 +203,7 @@ static bool StartRegionFlood(const RegionUpdate* u)
 {
     kiriSeeds seeds = { 0 };
     bool ok = true;
-    for (int32_t i = 0; ok && i < u->siteCount; ++i) {
+    KIRI_TIMES_WHILE(ok, i, u->siteCount) {
         ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
     }
     const int32_t* holders = u->regions->siteAt.data;
@@ -277,7 +277,7 @@ static bool FinishRepair(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     int32_t orphans = 0, kept = 0;
-    for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.steps, changes->steps.count) {
         FindBorder(u, changes->steps.data[k]);
     }
     KIRI_EACH(const int32_t, orphan, r->orphans) {
@@ -286,7 +286,7 @@ static bool FinishRepair(const RegionUpdate* u)
         orphans += kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE;
     }
     r->orphans.count = orphans;
-    for (int32_t k = r->seen.made; k < changes->made.count; ++k) {
+    KIRI_FROM_TO(k, r->seen.made, changes->made.count) {
         int32_t cell = changes->made.data[k];
         if (r->field.owner.data[cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, cell)) {
             return false;
@@ -341,7 +341,7 @@ static bool BeginRegions(const RegionUpdate* u)
     if (!MoveSites(u)) {
         return false;
     }
-    for (int32_t k = 0; k < u->moveCount; ++k) {
+    KIRI_TIMES(k, u->moveCount) {
         MarkDirtyAround(u, u->moves[k].was);
         MarkDirtyAround(u, u->sites[u->moves[k].frame].cell);
     }
@@ -399,7 +399,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
 void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!regions->running && regions->changes.count == 0 && regions->orphans.count == 0);
-    for (int32_t k = 0; k < goneCount; ++k) {
+    KIRI_TIMES(k, goneCount) {
         kiriField_Forget(&regions->field, gone[k]);
         regions->siteAt.data[gone[k]] = KIRI_NONE;
         SetBorder(regions, gone[k], false);

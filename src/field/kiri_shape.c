@@ -3,8 +3,6 @@
 #include "../core/kiri_archive.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 /* Marks of a cell. */
 enum {
     MARK_STEPS = 1, /* new, or its steps changed */
@@ -401,7 +399,7 @@ static void LoadBeyond(ShapeJob* job, int32_t limit)
     int32_t old = work->frames.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : limit;
     for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         const kiriReachBlock* block = &reaches->blocks.data[b];
-        for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        KIRI_TIMES(k, KIRI_BLOCK_CELLS) {
             int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
             if (block->fromSite[k] <= rim || block->fromSite[k] == KIRI_FAR ||
                 (work->marks.data[cell] & MARK_GONE) != 0) {
@@ -532,14 +530,14 @@ static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
     int32_t first = loaded.cells * KIRI_BLOCK_CELLS, index = loaded.block, changed = 0;
     int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
     bool any = false;
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+    KIRI_TIMES(k, KIRI_BLOCK_CELLS) {
         any |= fromSite[k] != KIRI_FAR;
         fromBorder[k] = fromSite[k] != KIRI_FAR ? fromBorder[k] : KIRI_FAR;
     }
     if (any && index == KIRI_NONE) {
         index = kiriReaches_Add(reaches, job->frame, loaded.cells);
     }
-    for (int32_t k = 0; index != KIRI_NONE && k < KIRI_BLOCK_CELLS; ++k) {
+    KIRI_TIMES_WHILE(index != KIRI_NONE, k, KIRI_BLOCK_CELLS) {
         kiriReachBlock* block = &reaches->blocks.data[index];
         uint8_t mark = work->marks.data[first + k];
         bool isOther = block->fromSite[k] != fromSite[k] || block->fromBorder[k] != fromBorder[k];
@@ -552,7 +550,7 @@ static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
         block->fromSite[k] = fromSite[k];
         block->fromBorder[k] = fromBorder[k];
     }
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+    KIRI_TIMES(k, KIRI_BLOCK_CELLS) {
         fromSite[k] = fromBorder[k] = KIRI_FAR;
         work->marks.data[first + k] &= (uint8_t) ~(MARK_SEED | MARK_SEEN);
     }
@@ -719,7 +717,7 @@ static bool StartShapeUpdate(ShapeJob* job, const kiriSiteMove* moves, int32_t m
     if (!ReserveShape(job)) {
         return false;
     }
-    for (int32_t k = 0; k < moveCount; ++k) {
+    KIRI_TIMES(k, moveCount) {
         MarkFrameDirty(job, moves[k].frame);
         work->frames.data[moves[k].frame].moved = true;
     }
@@ -806,12 +804,12 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
 {
     kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!work->running && shape->changes.count == 0);
-    for (int32_t k = 0; k < goneCount; ++k) {
+    KIRI_TIMES(k, goneCount) {
         kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights, sizeof(kiriCellWeight), 0);
         work->rigidShares.data[gone[k]] = 0;
         work->counted.data[gone[k]] = (kiriCountedCell){ KIRI_NONE, 0 };
     }
-    for (int32_t f = frames->first; f < frames->to.count; ++f) {
+    KIRI_FROM_TO(f, frames->first, frames->to.count) {
         if (!kiriKeep_Has(frames, f)) {
             kiriReaches_Forget(&shape->reaches, f);
             kiriSpan_Resize(&work->frames.data[f].sides, &work->sideRoom, memory, &work->sideCounts,
@@ -857,14 +855,14 @@ void kiriShape_Reset(kiriShape* shape)
     kiriShapeWork* work = shape->work;
     kiriReaches_Clear(&shape->reaches);
     shape->spans.count = shape->weights.count = shape->rigid.count = shape->changes.count = 0;
-    memset(&shape->room, 0, sizeof(shape->room));
+    KIRI_CLEAR(&shape->room);
     shape->recomputed = 0;
     if (work != NULL) {
         kiriField_Clear(&work->fromSite);
         kiriField_Clear(&work->fromBorder);
         work->marks.count = work->isLoaded.count = work->loaded.count = 0;
         work->frames.count = work->dirtyFrames.count = work->sideCounts.count = 0;
-        memset(&work->sideRoom, 0, sizeof(work->sideRoom));
+        KIRI_CLEAR(&work->sideRoom);
         work->running = work->isMeasuring = false;
         work->debt = 0;
     }

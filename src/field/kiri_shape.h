@@ -6,8 +6,6 @@
 #include "kiri_geodesic.h"
 #include "kiri_region.h"
 
-#include <string.h>
-
 KIRI_C_BEGIN
 
 typedef struct kiriWeight {

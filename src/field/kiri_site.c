@@ -108,7 +108,7 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
                     double reach)
 {
     kiriSite pair[2];
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         pair[k] = kiriSlit_SiteBeside(grid, mesh, end, k == 0 ? reach : -reach);
         KIRI_EACH_WHILE(pair[k].cell != KIRI_NONE, const kiriSite, site, *sites) {
             if (site->cell == pair[k].cell || SquaredDistance(pair[k].at, site->at) < reach * reach) {
@@ -189,7 +189,7 @@ bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGri
 static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
 {
     int32_t count = placer->cells.count, first = INT32_MAX, last = 0, *cells = placer->cells.data;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         int32_t square = grid->cells.data[cells[k]].square;
         first = kiriMin(square, first);
         last = kiriMax(square, last);
@@ -291,7 +291,7 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
     const int32_t* holds = job->work->holds.data;
     kiriField_Reset(field);
     seeds->count = 0;
-    for (int32_t i = first; i < end; ++i) {
+    KIRI_FROM_TO(i, first, end) {
         if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, job->mesh, seeds)) {
             return false;
         }
@@ -325,7 +325,7 @@ static kiriProgress VisitCells(PlacerJob* job, const kiriIndices* cells, void vi
         end = from + VISITS_AN_ITEM * (int32_t)items;
     }
     kiriQuota_Take(job->quota, items);
-    for (int32_t i = from; i < end; ++i) {
+    KIRI_FROM_TO(i, from, end) {
         visit(job, cells->data[i]);
     }
     job->work->cursor = end < cells->count ? end : 0;
@@ -354,7 +354,7 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
     int32_t first = (int32_t)(block - job->work->blocks.data) * SAMPLE_CELLS, left = placer->cells.count - first;
     int32_t end = first + kiriMin(left, SAMPLE_CELLS);
     *block = (SampleBlock){ -1, KIRI_NONE, placer->sites.count, false };
-    for (int32_t i = first; i < end; ++i) {
+    KIRI_FROM_TO(i, first, end) {
         int32_t cell = placer->cells.data[i];
         if (job->work->holds.data[cell] == CELL_FREE) {
             int64_t old = OldDistance(job->work, cell), sampled = job->work->sampled.data[cell];
@@ -372,7 +372,7 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
 static SampleBlock* FarthestBlock(const kiriPlacerWork* work)
 {
     SampleBlock* best = work->blocks.data;
-    for (int32_t b = 1; b < work->blocks.count; ++b) {
+    KIRI_FROM_TO(b, 1, work->blocks.count) {
         SampleBlock* block = &work->blocks.data[b];
         if (block->distance > best->distance ||
             (block->distance == best->distance && block->isCovered && !best->isCovered)) {
@@ -386,7 +386,7 @@ static SampleBlock* FarthestBlock(const kiriPlacerWork* work)
 static kiriProgress StartRound(PlacerJob* job)
 {
     int32_t first = job->placer->oldCount, end = job->placer->sites.count;
-    for (int32_t k = 0; k < end - first; ++k) {
+    KIRI_TIMES(k, end - first) {
         job->work->targets.data[k] = (SiteTarget){ .cell = KIRI_NONE };
     }
     job->work->stage = FLOOD_ALL_NEW;
@@ -525,7 +525,7 @@ static kiriProgress AimNearCenters(PlacerJob* job)
         }
         int32_t square =
             target->isFound ? KIRI_NONE : kiriSquares_At(squares, kiriMesh_Snap(job->mesh, target->center));
-        for (int32_t k = 0; square != KIRI_NONE && k < 9; ++k) {
+        KIRI_TIMES_WHILE(square != KIRI_NONE, k, 9) {
             int32_t u = square % squares->columns + k % 3 - 1, v = square / squares->columns + k / 3 - 1;
             bool isSquare = u >= 0 && u < squares->columns && v >= 0 && v < squares->rows;
             int32_t c = isSquare ? job->grid->squareCell.data[v * squares->columns + u] : KIRI_NONE;
@@ -551,10 +551,10 @@ static bool MoveToTargets(PlacerJob* job)
     kiriPlacer* placer = job->placer;
     double half = 0.5 * job->grid->side;
     bool moved = false;
-    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+    KIRI_FROM_TO(i, placer->oldCount, placer->sites.count) {
         job->work->holds.data[placer->sites.data[i].cell] = CELL_FREE;
     }
-    for (int32_t i = placer->oldCount; i < placer->sites.count; ++i) {
+    KIRI_FROM_TO(i, placer->oldCount, placer->sites.count) {
         const SiteTarget* target = &job->work->targets.data[i - placer->oldCount];
         kiriSite site = placer->sites.data[i];
         if (target->cell != KIRI_NONE) {
@@ -578,7 +578,7 @@ static kiriProgress EndRound(PlacerJob* job)
     if (MoveToTargets(job) && ++job->work->round < MOST_ROUNDS) {
         return StartRound(job);
     }
-    for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
+    KIRI_FROM_TO(i, job->placer->oldCount, sites->count) {
         sites->data[i] = SiteInCell(job->grid, job->mesh, sites->data[i].cell);
     }
     job->work->stage = PLACER_RESTS;
@@ -620,7 +620,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case SUM_PART:
         progress = VisitCells(job, work->stage == SUM ? settled : part, SumCell);
         if (progress == KIRI_DONE) {
-            for (int32_t k = 0; k < kiriMax(job->placer->sites.count - job->placer->oldCount, 1); ++k) {
+            KIRI_TIMES(k, kiriMax(job->placer->sites.count - job->placer->oldCount, 1)) {
                 SiteTarget* target = &work->targets.data[k];
                 double scale = job->grid->side / (double)kiriMax(target->area, 1);
                 target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);

@@ -1,7 +1,5 @@
 #include "kiri_stencil.h"
 
-#include <string.h>
-
 /* Returns the quadratic B-spline, zero from 1.5 on. */
 static double QuadraticSpline(double t)
 {
@@ -38,7 +36,7 @@ static void ShareSquares(kiriStencil* stencil, kiriVec2 from)
         }
         for (int32_t a = first; a < end && end - first > 1; ++a) {
             shares[a] = 1.0;
-            for (int32_t b = first; b < end; ++b) {
+            KIRI_FROM_TO(b, first, end) {
                 kiriVec2 way = kiriVec2_Sub(centers[a], centers[b]);
                 kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(centers[a], centers[b]));
                 double length = kiriVec2_Length(way), side = 0.5;
@@ -58,7 +56,7 @@ static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     kiriVec2 off = OffsetOf(stencil, at);
     double u[3], v[3];
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         u[i] = QuadraticSpline(i - 1 - off.x);
         v[i] = QuadraticSpline(i - 1 - off.y);
     }
@@ -134,11 +132,11 @@ static void SetShares(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 static void MakeSumOne(double* values, int32_t count)
 {
     double sum = 0.0;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         sum += values[i];
     }
     KIRI_ASSERT(count == 0 || sum > 0.0);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         values[i] /= sum;
     }
 }
@@ -151,17 +149,17 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     double* values = stencil->values.data;
     KIRI_ASSERT(stencil->values.count == count && stencil->weights.count == count * stencil->steps.count);
     SetShares(stencil, at, lean);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         values[i] = 0.0;
     }
     KIRI_EACH_INDEX(k, stencil->steps) {
         const double* weights = stencil->weights.data + (size_t)k * (size_t)count;
         double share = stencil->shares.data[k];
-        for (int32_t i = 0; i < count; ++i) {
+        KIRI_TIMES(i, count) {
             values[i] += weights[i] * share;
         }
     }
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         values[i] = kiriMax(values[i], 0.0);
     }
     MakeSumOne(values, count);
@@ -179,7 +177,7 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     int32_t count = stencil->frames.count;
     WeighLinear(stencil, at, lean);
     if (stencil->eased) {
-        for (int32_t i = 0; i < count; ++i) {
+        KIRI_TIMES(i, count) {
             stencil->values.data[i] = Ease(stencil->values.data[i]);
         }
         MakeSumOne(stencil->values.data, count);
@@ -217,7 +215,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     static const uint8_t sorted[] = { 4, 0, 5, 1, 2, 6, 3, 7 }; /* plain steps, by square */
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
-    for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
+    KIRI_TIMES_WHILE(plain, k, steps.end[1]) {
         plain = grid->whole.data[grid->cells.data[kiriSteps_At(&steps, k).cell].square];
     }
     int32_t end = steps.end[plain ? 1 : 0];
@@ -226,16 +224,16 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
         return false;
     }
     KIRI_NEXT(stencil->steps) = (kiriStep){ cell, 0, 0, 0 };
-    for (int32_t k = 0; k < end; ++k) {
+    KIRI_TIMES(k, end) {
         InsertStep(stencil, grid, kiriSteps_At(&steps, plain ? sorted[k] : k));
     }
-    for (int32_t k = 0; !plain && k < end; ++k) {
+    KIRI_TIMES_WHILE(!plain, k, end) {
         const kiriStep to = kiriSteps_At(&steps, k);
         kiriSteps more = kiriGrid_GetSteps(grid, to.cell);
         if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + more.end[0])) {
             return false;
         }
-        for (int32_t m = 0; m < more.end[0]; ++m) {
+        KIRI_TIMES(m, more.end[0]) {
             kiriStep on = kiriSteps_At(&more, m);
             if ((to.u != 0) != (on.u != 0)) {
                 on.u = (int8_t)(on.u + to.u);
@@ -255,14 +253,14 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
         return false;
     }
     stencil->split = false;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         kiriStep to = stencil->steps.data[k];
         int32_t square = 1 << (3 * (to.v + 1) + to.u + 1);
         stencil->split = stencil->split || (seen & square) != 0;
         seen |= square;
     }
     stencil->full = count == 9 && seen == 511;
-    for (int32_t k = 0; stencil->split && k < count; ++k) {
+    KIRI_TIMES_WHILE(stencil->split, k, count) {
         kiriMoments material = kiriGrid_Material(grid, mesh, stencil->steps.data[k].cell);
         stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&material));
     }

@@ -70,7 +70,7 @@ static bool CoverLine(const kiriMeshData* mesh, kiriMemory* memory, const kiriLa
     double beside = way * BESIDE * mesh->squares.side / kiriVec2_Length(along);
     int32_t first = line->covers.count;
     kiriLatticePoint p[2];
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         p[k] = kiriMesh_Round(kiriVec2_Make(ends[k].x - beside * along.y, ends[k].y + beside * along.x));
         p[k].x += 1;
         p[k].y += 1;
@@ -118,12 +118,12 @@ bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh
     bool ok = true;
     KIRI_ASSERT(!kiriLattice_IsSame(from, to));
     line->parts.count = line->covers.count = 0;
-    for (int k = 0; ok && k < 2; ++k) {
+    KIRI_TIMES_WHILE(ok, k, 2) {
         ok = CoverLine(mesh, memory, ends, k == 0 ? 1.0 : -1.0, line, &line->order[k]);
     }
     for (double t = 0.0; ok && t < 1.0;) {
         kiriLinePart part = { t, 1.0, { KIRI_NONE, KIRI_NONE } };
-        for (int k = 0; k < 2; ++k) {
+        KIRI_TIMES(k, 2) {
             part.node[k] = CoverAt(line, &line->order[k], &next[k], t, &part.to);
         }
         bool isCovered = part.node[0] != KIRI_NONE || part.node[1] != KIRI_NONE;
@@ -292,11 +292,11 @@ static bool AreEdgesFree(BladeWalk* walk, kiriLatticePoint at, const kiriLattice
                          bool isOutline)
 {
     bool mustLook = isOutline, isTaken = false;
-    for (int k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         mustLook = mustLook || IsThin(at, sides[k][0], sides[k][1]);
     }
     mustLook = mustLook && kiriMesh_VertexAt(walk->mesh, at, &walk->effort) != KIRI_NONE;
-    for (int k = 0; mustLook && k < count; ++k) {
+    KIRI_TIMES_WHILE(mustLook, k, count) {
         isTaken = isTaken || IsCornerTaken(walk, at, sides[k][0], sides[k][1]);
     }
     return !isTaken;
@@ -346,7 +346,7 @@ static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
     double length = sqrt((double)kiriDistanceSquared(a, b)), x = ((double)b.x - a.x) / length,
            y = ((double)b.y - a.y) / length;
     bool canSplit = CanSplitEdge(walk, h, p), isOutline = kiriMesh_Twin(walk->mesh, h) == KIRI_NONE;
-    for (int i = 0; !canSplit && i < 9; ++i) {
+    KIRI_TIMES_WHILE(!canSplit, i, 9) {
         for (int32_t steps = 1; !canSplit && steps <= SLACK; steps = steps < 0 ? -2 * steps : -steps) {
             double s = along[i] * walk->on, t = steps == 1 || (isOutline && steps < 0) ? 0.0 : steps;
             p = kiriMesh_Round(kiriVec2_Make(at->x + s * x - t * y, at->y + s * y + t * x));
@@ -377,7 +377,7 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     int32_t h = KIRI_NONE;
     KIRI_ASSERT_HAS(walk->mesh->triangles, triangle);
     kiriMesh_Corners(walk->mesh, triangle, c);
-    for (int i = 1; i < 3; ++i) {
+    KIRI_FROM_TO(i, 1, 3) {
         nearest = kiriDistanceSquared(c[i], at) < kiriDistanceSquared(c[nearest], at) ? i : nearest;
     }
     int32_t corner = v[nearest];
@@ -470,7 +470,7 @@ static bool EnterSheet(BladeWalk* walk)
     walk->effort += LOOK_EFFORT;
     for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
         walk->effort += LOOK_EFFORT;
-        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             double share = EntryOver(walk, h);
             if (share < least || (share == least && share <= 1.0 && h < edge)) {
                 edge = h;

@@ -286,7 +286,7 @@ static bool IsReached(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint t
     const double width = 2.0 * corridor->reach * corridor->length;
     const double least = (double)kiriCorridor_Progress(corridor, PointOf(corridor, vertex)) - width,
                  most = (double)kiriCorridor_Progress(corridor, to) + width;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         LipsAround around = BeginLips(corridor, vertices[i]);
         while (NextLip(corridor, &around)) {
             kiriLatticePoint there = PointOf(corridor, around.end);
@@ -460,7 +460,7 @@ static bool IsLoose(kiriCorridor* corridor, int32_t vertex)
     enum { MANY = 48 };
     int32_t vertices[MANY] = { vertex }, count = 1;
     double nearest = fabs(kiriCorridor_Side(corridor, PointOf(corridor, vertex)));
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         LipsAround around = BeginLips(corridor, vertices[i]);
         while (NextLip(corridor, &around)) {
             kiriLatticePoint there = PointOf(corridor, around.end), crossing;

@@ -1,8 +1,6 @@
 #include "kiri_mesh.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 /* ---- Making and changing ----------------------------------------------------------------------------------------- */
 
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g)
@@ -259,7 +257,7 @@ bool kiriMesh_Reserve(kiriMeshData* mesh, int32_t changes)
 static bool ReserveChange(kiriMeshData* mesh, const kiriLatticePoint (*corners)[3], int32_t count)
 {
     int64_t nodes = mesh->squares.nodes.count;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         nodes += kiriSquares_MostNodes(&mesh->squares, corners[k]);
     }
     return kiriMesh_Reserve(mesh, 1) && kiriArray_Reserve(mesh->memory, &mesh->squares.nodes, nodes);
@@ -272,7 +270,7 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source
     KIRI_ASSERT(mesh->births.count == mesh->vertices.count - mesh->oldVertexCount);
     int32_t index = mesh->vertices.count++;
     kiriVertex* v = &mesh->vertices.data[index];
-    memset(v, 0, sizeof(*v));
+    KIRI_CLEAR(v);
     v->at = at;
     v->edge = KIRI_NONE;
     kiriMesh_ListVertex(mesh, index);
@@ -327,7 +325,7 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
     KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
     int32_t g = kiriMesh_Twin(mesh, h), count = g == KIRI_NONE ? 2 : 4;
     kiriLatticePoint made[4][3];
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         int32_t edge = k < 2 ? h : g;
         kiriMesh_Corners(mesh, edge / 3, made[k]);
         made[k][(edge + k) % 3] = at; /* edge % 3 and the next corner */
@@ -465,7 +463,7 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease)
     NoteTriangle(mesh, twin / 3);
     int32_t before = mesh->vertices.count;
     ++mesh->revision;
-    for (int side = 0; side < 2; ++side) {
+    KIRI_TIMES(side, 2) {
         int32_t g = side == 0 ? h : twin;
         kiriMesh_SetOpen(mesh, g, false);
         kiriMesh_SetOpen(mesh, g, true);
@@ -579,13 +577,13 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
     bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
     sources = mesh->sources.data;
-    for (int32_t t = 0; ok && t < count; ++t) {
+    KIRI_TIMES_WHILE(ok, t, count) {
         sources[t] = mesh->triangles.data[t].source;
     }
     if (ok) {
         kiriSort_Numbers(sources, room, count);
     }
-    for (int32_t i = 0; ok && i < count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, count) {
         if (left == 0 || sources[i] != sources[left - 1]) {
             sources[left++] = sources[i];
         }
@@ -593,7 +591,7 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     mesh->sources.count = left;
     kiriMemory_Free(mesh->memory, room);
     ok = ok && kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)left);
-    for (int32_t k = 0; ok && k < left; ++k) {
+    KIRI_TIMES_WHILE(ok, k, left) {
         kiriMesh_SourceCorners(from, sources[k], &mesh->sourceCorners.data[3 * (size_t)k]);
     }
     return ok;
@@ -602,7 +600,7 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
 {
     kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
-    for (int32_t v = 1; v < mesh->vertices.count; ++v) {
+    KIRI_FROM_TO(v, 1, mesh->vertices.count) {
         kiriLatticePoint at = mesh->vertices.data[v].at;
         lower.x = kiriMin(at.x, lower.x);
         lower.y = kiriMin(at.y, lower.y);
@@ -616,7 +614,7 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
                        const kiriMeshPart* triangles, const kiriMeshPart* vertices)
 {
     KIRI_ASSERT(mesh->memory == NULL && triangles->items.count > 0 && vertices->items.count > 0);
-    memset(mesh, 0, sizeof(*mesh));
+    KIRI_CLEAR(mesh);
     mesh->memory = memory;
     mesh->origin = from->origin;
     mesh->step = from->step;

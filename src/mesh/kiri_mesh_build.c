@@ -1,7 +1,5 @@
 #include "kiri_mesh_build.h"
 
-#include <string.h>
-
 /* Allocates indices, all with the same value. */
 static int32_t* MakeIndices(kiriMemory* memory, int64_t count, int32_t value)
 {
@@ -46,7 +44,7 @@ static int32_t FindNearestKept(const WeldGrid* grid, kiriLatticePoint at)
     bool isInCell = grid->nearSquared <= 4.0;
     int32_t found = KIRI_NONE;
     int64_t nearest = 0;
-    for (int k = isInCell ? 4 : 0; k < (isInCell ? 5 : 9); ++k) {
+    KIRI_FROM_TO(k, isInCell ? 4 : 0, isInCell ? 5 : 9) {
         int64_t slot = FindSlot(grid, at.x / grid->side + k % 3 - 1, at.y / grid->side + k / 3 - 1);
         for (int32_t v = grid->slots[slot]; v != KIRI_NONE; v = grid->previous[v]) {
             int64_t distance = kiriDistanceSquared(grid->at[v], at);
@@ -75,7 +73,7 @@ bool kiriWeld_Find(const kiriLatticePoint* at, int32_t count, double distance, i
                       MakeIndices(memory, count, KIRI_NONE),
                       distance * distance };
     bool ok = grid.slots != NULL && grid.previous != NULL;
-    for (int32_t v = 0; ok && v < count; ++v) {
+    KIRI_TIMES_WHILE(ok, v, count) {
         if (to[v] == KIRI_NONE) {
             continue;
         }
@@ -144,7 +142,7 @@ static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, 
         KIRI_SAY(fault, "triangle 0 has no area: all rest positions are the same point");
         return KIRI_ERROR_MESH;
     }
-    for (int32_t v = 0; v < input->vertexCount; ++v) {
+    KIRI_TIMES(v, input->vertexCount) {
         const float* p = &input->positions[2 * (int64_t)v];
         if (welded->to[v] != KIRI_NONE) {
             welded->at[v] = kiriMesh_Snap(mesh, kiriVec2_Sub(kiriVec2_Make(p[0], p[1]), mesh->origin));
@@ -171,7 +169,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
                               kiriFault* fault)
 {
     int32_t v[3], vertices = 0, triangles = 0;
-    for (int32_t t = 0; t < input->triangleCount; ++t) {
+    KIRI_TIMES(t, input->triangleCount) {
         if (GetWeldedCorners(input, welded, t, v)) {
             welded->number[v[0]] = welded->number[v[1]] = welded->number[v[2]] = 0;
             ++triangles;
@@ -181,7 +179,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
         KIRI_SAY(fault, "triangle 0 and all others have two corners nearer than weldDistance");
         return KIRI_ERROR_MESH;
     }
-    for (int32_t i = 0; i < input->vertexCount; ++i) {
+    KIRI_TIMES(i, input->vertexCount) {
         welded->number[i] = welded->number[i] != KIRI_NONE ? vertices++ : KIRI_NONE;
     }
     int64_t blocks = ((int64_t)input->triangleCount + KIRI_SOURCES_A_BLOCK - 1) / KIRI_SOURCES_A_BLOCK;
@@ -191,7 +189,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
         return KIRI_ERROR_MEMORY;
     }
     kiriArray_Set(&mesh->sourceBlocks, KIRI_NONE);
-    for (int32_t i = 0; i < input->vertexCount; ++i) {
+    KIRI_TIMES(i, input->vertexCount) {
         if (welded->number[i] != KIRI_NONE) {
             mesh->vertices.data[welded->number[i]] = (kiriVertex){ welded->at[i], KIRI_NONE, 0, 0, 0 };
         }
@@ -258,17 +256,17 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
     if (at == NULL || point == NULL || degree == NULL || first == NULL || next == NULL) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t v = 0; v < vertices; ++v) {
+    KIRI_TIMES(v, vertices) {
         at[v] = kiriMesh_At(mesh, v);
         point[v] = v;
     }
     if (!kiriWeld_Find(at, vertices, 1.0, point, scratch)) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         ++degree[point[kiriMesh_Tail(mesh, h)]];
     }
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         int32_t a = point[kiriMesh_Tail(mesh, h)], b = point[kiriMesh_Head(mesh, h)];
         int32_t* list = &first[degree[a] < degree[b] || (degree[a] == degree[b] && a < b) ? a : b];
         int32_t g = *list;
@@ -341,7 +339,7 @@ static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[
     KIRI_EACH_CORNER(i) {
         kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
         int64_t inner = kiriOrient(p, q, b[0]), outer = inner;
-        for (int k = 1; k < 3; ++k) {
+        KIRI_FROM_TO(k, 1, 3) {
             int64_t above = kiriOrient(p, q, b[k]);
             inner = kiriMax(above, inner);
             outer = kiriMin(above, outer);
@@ -390,7 +388,7 @@ static bool ItemsOverlap(const OverlapTree* tree, const OverlapItem* a, const Ov
 /* Enlarges a box to hold another one. */
 static void JoinBox(OverlapBox* box, const OverlapBox* other)
 {
-    for (int axis = 0; axis < 2; ++axis) {
+    KIRI_TIMES(axis, 2) {
         box->low[axis] = kiriMin(other->low[axis], box->low[axis]);
         box->high[axis] = kiriMax(other->high[axis], box->high[axis]);
     }
@@ -402,7 +400,7 @@ static void MakeNode(OverlapTree* tree, int32_t first, int32_t end, int32_t inde
     const OverlapBox none = { { INT32_MAX, INT32_MAX }, { INT32_MIN, INT32_MIN } };
     OverlapBox box = none, centers = none; /* centers are doubled */
     KIRI_ASSERT(first < end);
-    for (int32_t i = first; i < end; ++i) {
+    KIRI_FROM_TO(i, first, end) {
         const OverlapBox* item = &tree->items[i].box;
         int32_t x = item->low[0] + item->high[0], y = item->low[1] + item->high[1];
         JoinBox(&box, item);
@@ -437,8 +435,8 @@ static bool NodesOverlap(OverlapTree* tree, const OverlapNode* a, const OverlapN
         return false;
     }
     if (a->child == KIRI_NONE && b->child == KIRI_NONE) {
-        for (int32_t i = a->first; i < a->end; ++i) {
-            for (int32_t j = a == b ? i + 1 : b->first; j < b->end; ++j) {
+        KIRI_FROM_TO(i, a->first, a->end) {
+            KIRI_FROM_TO(j, a == b ? i + 1 : b->first, b->end) {
                 if (ItemsOverlap(tree, &tree->items[i], &tree->items[j])) {
                     tree->pair[0] = tree->items[i].index;
                     tree->pair[1] = tree->items[j].index;
@@ -469,7 +467,7 @@ static bool FindOverlap(OverlapTree* tree, int32_t count)
 static OverlapItem MakeOverlapItem(const kiriLatticePoint* points, int count, int32_t margin, int32_t index)
 {
     OverlapItem item = { { { INT32_MAX, INT32_MAX }, { INT32_MIN, INT32_MIN } }, index };
-    for (int i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriLatticePoint p = points[i];
         JoinBox(&item.box, &(OverlapBox){ { p.x - margin, p.y - margin }, { p.x + margin, p.y + margin } });
     }
@@ -498,7 +496,7 @@ static int32_t ListLoop(const kiriMeshData* mesh, int32_t first, OverlapItem* it
 static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriMemory* scratch, kiriFault* fault)
 {
     int32_t edges = 0, first = KIRI_NONE;
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
+    KIRI_TIMES(h, 3 * mesh->triangles.count) {
         if (kiriMesh_Twin(mesh, h) == KIRI_NONE) {
             first = h;
             ++edges;
@@ -543,13 +541,13 @@ static bool ClaimFans(kiriMeshData* mesh, kiriMemory* scratch)
         return false;
     }
     kiriUnion_Init(fan, halves);
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         int32_t before = kiriMesh_Clockwise(mesh, h);
         if (before != KIRI_NONE) {
             kiriUnion_Join(fan, h, before);
         }
     }
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         kiriTriangle* triangle = &mesh->triangles.data[h / 3];
         int32_t root = kiriUnion_Root(fan, h), vertex = kiriMesh_Tail(mesh, root);
         if (root == h) {
@@ -572,7 +570,7 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshI
 {
     kiriMemory scratch = kiriMemory_Like(memory);
     kiriLatticePoint extent = { 0 };
-    memset(mesh, 0, sizeof(*mesh));
+    KIRI_CLEAR(mesh);
     mesh->memory = memory;
     fault->line[0] = '\0';
     kiriResult result = CheckInput(input, fault);
@@ -664,7 +662,7 @@ void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
     KIRI_ASSERT(count + BLOCK_CORNERS <= mesh->sourceCorners.capacity);
     kiriLatticePoint* corners = &mesh->sourceCorners.data[count];
     memset(corners, 0, BLOCK_CORNERS * sizeof(*corners));
-    for (int32_t i = 0; i < KIRI_SOURCES_A_BLOCK; ++i) {
+    KIRI_TIMES(i, KIRI_SOURCES_A_BLOCK) {
         (void)kiriMesh_SourceCorners(mesh, KIRI_SOURCES_A_BLOCK * k + i, corners + 3 * (ptrdiff_t)i);
     }
     mesh->sourceCorners.count += BLOCK_CORNERS;

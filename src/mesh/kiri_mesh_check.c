@@ -1,7 +1,5 @@
 #include "kiri_mesh_check.h"
 
-#include <string.h>
-
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 KIRI_TABLE(TriangleTable, kiriTriangle, {
@@ -230,14 +228,14 @@ static bool AreFolds(const kiriMeshData* mesh)
     bool areFine = mesh->folds.count <= KIRI_MOST_FOLDS;
     KIRI_EACH_WHILE(areFine, const kiriFoldLine, fold, mesh->folds) {
         const int32_t ends[4] = { fold->from.x, fold->from.y, fold->to.x, fold->to.y };
-        for (int k = 0; k < 4; ++k) {
+        KIRI_TIMES(k, 4) {
             areFine = areFine && ends[k] >= -MOST && ends[k] <= MOST;
         }
         areFine = areFine && !kiriLattice_IsSame(fold->from, fold->to) && fold->reach >= 0.0 &&
                   fold->reach <= KIRI_MOST_FOLD_REACH && fold->stiffness >= 0.0f && fold->yieldMoment >= 0.0f &&
                   fabs((double)fold->restAngle) <= KIRI_MOST_FOLD;
     }
-    for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {
+    KIRI_TIMES_WHILE(areFine, h, 3 * mesh->triangles.count) {
         bool isClaimed = !kiriMesh_IsCrease(mesh, h);
         KIRI_EACH_INDEX_WHILE(!isClaimed, f, mesh->folds) {
             isClaimed = kiriFoldLine_Has(&mesh->folds.data[f], kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));

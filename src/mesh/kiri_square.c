@@ -1,7 +1,5 @@
 #include "kiri_square.h"
 
-#include <string.h>
-
 /* ---- Squares of a box -------------------------------------------------------------------------------------------- */
 
 typedef struct SquareBox {
@@ -35,7 +33,7 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
 {
     int64_t longer = kiriMax(extent.x, extent.y);
     KIRI_ASSERT(extent.x >= 0 && extent.y >= 0 && resolution > 0);
-    memset(squares, 0, sizeof(*squares));
+    KIRI_CLEAR(squares);
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
     squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
@@ -62,7 +60,7 @@ static void TakeLines(const kiriSquares* like, int32_t lower, int32_t upper, int
 bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like, kiriLatticePoint lower,
                           kiriLatticePoint upper)
 {
-    memset(squares, 0, sizeof(*squares));
+    KIRI_CLEAR(squares);
     squares->side = like->side;
     squares->columns = like->columns;
     squares->rows = like->rows;
@@ -298,7 +296,7 @@ void kiriSquares_Reshape(kiriSquares* squares, int32_t triangle, const kiriLatti
 void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int32_t* of, int32_t count)
 {
     kiriSquareNode* nodes = squares->nodes.data;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         int32_t* link = &squares->head[of[k]];
         while (*link != KIRI_NONE) {
             int32_t slot = *link;

@@ -16,7 +16,7 @@ kiriVec3 kiriSystem_Blend(const kiriSystem* system, const kiriContactMember* mem
                           const kiriPose* poses)
 {
     kiriVec3 x = { 0 };
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, poses);
         x = kiriVec3_AddScaled(x, members[m].value, point);
     }
@@ -96,7 +96,7 @@ static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all
     double sum = 0.0;
     for (int32_t n = 0; n < count && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
         bool isCoupled = true;
-        for (int32_t m = 0; isCoupled && m < step->memberCount; ++m) {
+        KIRI_TIMES_WHILE(isCoupled, m, step->memberCount) {
             kiriPair pair = { step->members[m].frame, all[n].frame };
             isCoupled = kiriMatrix_Covers(solver->matrix, pair);
         }
@@ -105,7 +105,7 @@ static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all
             sum += all[n].value;
         }
     }
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         step->members[m].value /= sum;
     }
 }
@@ -116,7 +116,7 @@ static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all
 static void WeighMembers(const kiriSystem* system, kiriContactStep* step)
 {
     double free = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         const kiriFrameData* frame = &system->frames[step->members[m].frame];
         free += frame->held ? 0.0 : fabs(step->members[m].value);
         step->mass += step->members[m].value * frame->mass;
@@ -174,7 +174,7 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
             touch->isNear = true;
         }
     }
-    for (int32_t f = 0; touch->isNear && f < system->frameCount; ++f) {
+    KIRI_TIMES_WHILE(touch->isNear, f, system->frameCount) {
         const kiriFrameData* frame = &solver->before.data[f];
         double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
         double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + obstacleSpeed;
@@ -188,9 +188,9 @@ static kiriYieldRow* FindYield(const kiriSolver* solver, const kiriIslandBody* m
 {
     kiriYieldRow* own = &member->sheet->yields[index];
     KIRI_ASSERT(index >= 0 && index < member->sheet->yieldCount);
-    for (int32_t n = 0; n < solver->islandCount; ++n) {
+    KIRI_TIMES(n, solver->islandCount) {
         const kiriSystem* sheet = solver->islandBodies[n].sheet;
-        for (int32_t k = 0; sheet != member->sheet && own->number > 0 && k < sheet->yieldCount; ++k) {
+        KIRI_TIMES_WHILE(sheet != member->sheet && own->number > 0, k, sheet->yieldCount) {
             if (sheet->yields[k].number == own->number) {
                 return &sheet->yields[k];
             }
@@ -206,7 +206,7 @@ static kiriYieldRow* FindYield(const kiriSolver* solver, const kiriIslandBody* m
 static int32_t AddSide(const kiriSolver* of, const kiriWeight* weights, int32_t count, double sign, kiriVec2 at,
                        kiriContactMember* all)
 {
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         const kiriSolverBody* body = &of->bodies.bodies.data[of->bodies.bodyOf.data[weights[n].frame]];
         all[n].frame = body->island + of->bodies.place.data[weights[n].frame];
         all[n].value = sign * weights[n].value;
@@ -230,7 +230,7 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
     off = kiriVec3_Across(off, row->otherNormal);
     row->otherAt = kiriVec2_Add(row->otherAt, kiriVec2_Make(off.x, off.y));
-    for (int32_t n = 0; n < row->otherCount; ++n) {
+    KIRI_TIMES(n, row->otherCount) {
         others[n].at = row->otherAt;
     }
 }
@@ -242,7 +242,7 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     kiriContactStep* step = &KIRI_NEXT(solver->contacts);
     kiriContactRow* row = &member->sheet->contacts[k];
     kiriContactMember all[KIRI_CONTACT_WEIGHTS + KIRI_CONTACT_SIDE];
-    memset(step, 0, sizeof(*step));
+    KIRI_CLEAR(step);
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
     KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_WEIGHTS);
@@ -264,7 +264,7 @@ static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
 {
     double mass = 0.0;
     KIRI_ASSERT(first >= 0 && count > 0 && first + count <= system->frameCount);
-    for (int32_t f = first; f < first + count; ++f) {
+    KIRI_FROM_TO(f, first, first + count) {
         mass += system->frames[f].mass;
     }
     return mass;
@@ -274,7 +274,7 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mass = MassOf(system, 0, system->frameCount);
     solver->contacts.count = 0;
-    for (int32_t n = 0; n < solver->islandCount; ++n) {
+    KIRI_TIMES(n, solver->islandCount) {
         const kiriIslandBody* member = &solver->islandBodies[n];
         const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];
         int32_t k = body->contact, first = body->island, count = body->frames.count;
@@ -414,7 +414,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     const kiriContactRow* row = step->row;
     double inertia = InertiaOf(solver, step), was = kiriVec3_Dot(row->normal, row->force);
     kiriVec3 predicted = { 0 }, free = predicted;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
         kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->pose);
         predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(prediction->pose.x, arm));
@@ -549,7 +549,7 @@ kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, c
                            int32_t count)
 {
     kiriVec3 sum = { 0 };
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         kiriContactMember member = members[m];
         kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
         kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
@@ -622,7 +622,7 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_STITCH_MEMBERS], places[KIRI_STITCH_MEMBERS], different = 0;
     KIRI_ASSERT(count <= KIRI_STITCH_MEMBERS);
-    for (int32_t m = 0; m < count; ++m) { /* a frame may carry both points */
+    KIRI_TIMES(m, count) { /* a frame may carry both points */
         places[m] = 0;
         while (places[m] < different && frames[places[m]] != members[m].frame) {
             places[m] += 1;
@@ -631,14 +631,14 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
         different = kiriMax(places[m] + 1, different);
     }
     memset(J, 0, sizeof(double) * (size_t)(KIRI_POINT_ROWS * different * solver->size));
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         const kiriPose* pose = &solver->poses.data[members[m].frame];
         kiriVec2 off = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
         kiriVec3 local = ways != NULL ? ways[m] : kiriVec3_Make(off.x, off.y, 0.0);
         kiriVec3 arm = ways != NULL ? kiriMat3_Mul(pose->A, local) : kiriPose_Along(pose, off);
-        for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
+        KIRI_TIMES(e, KIRI_POINT_ROWS) {
             DerivePoint(solver, system, members[m], local, arm, ways == NULL, at->axis[e], own);
-            for (int32_t n = 0; n < solver->size; ++n) {
+            KIRI_TIMES(n, solver->size) {
                 J[solver->size * (different * e + places[m]) + n] += own[n];
             }
         }
@@ -659,7 +659,7 @@ typedef struct Carrier {
 static void SumSprings(const kiriPointSprings* at, kiriVec3 columns[3])
 {
     memset(columns, 0, 3 * sizeof(kiriVec3));
-    for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
         kiriVec3 axis = at->axis[e], scaled = kiriVec3_Scale(at->spring[e], axis);
         columns[0] = kiriVec3_AddScaled(columns[0], axis.x, scaled);
         columns[1] = kiriVec3_AddScaled(columns[1], axis.y, scaled);
@@ -682,7 +682,7 @@ static void WriteBlock(const kiriVec3 springs[3], const Carrier* down, const Car
     double weight = down->weight * across->weight;
     const kiriVec3* m = across->moment;
     const kiriVec3 turned[3] = { { m[0].x, m[1].x, m[2].x }, { m[0].y, m[1].y, m[2].y }, { m[0].z, m[1].z, m[2].z } };
-    for (int c = 0; c < 3; ++c) {
+    KIRI_TIMES(c, 3) {
         StoreScaled(weight, springs[c], &block[6 * c]);
         StoreScaled(weight, down->moment[c], &block[6 * c + 3]);
         StoreScaled(weight, turned[c], &block[6 * c + 18]);
@@ -695,7 +695,7 @@ static void AddCarried(kiriSolver* solver, const Carrier* carrier, kiriVec3 pull
     double* force = &solver->force.data[6 * carrier->frame];
     kiriVec3 along = kiriVec3_Scale(carrier->weight, pull), moment = kiriVec3_Cross(carrier->arm, along);
     const double add[6] = { along.x, along.y, along.z, moment.x, moment.y, moment.z };
-    for (int n = 0; n < 6; ++n) {
+    KIRI_TIMES(n, 6) {
         force[n] += add[n];
     }
 }
@@ -707,20 +707,20 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const ki
     kiriVec3 springs[3], pull = { 0 };
     int32_t count = 0;
     SumSprings(at, springs);
-    for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
         pull = kiriVec3_AddScaled(pull, at->pull[e], at->axis[e]);
     }
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         Carrier* carrier = &carriers[count];
         carrier->frame = step->members[m].frame;
         carrier->weight = step->members[m].value;
         carrier->arm = kiriSystem_Arm(system, carrier->frame, step->members[m].at, &solver->poses.data[carrier->frame]);
-        for (int c = 0; c < 3; ++c) {
+        KIRI_TIMES(c, 3) {
             carrier->moment[c] = kiriVec3_Cross(carrier->arm, springs[c]);
         }
         count += !system->frames[carrier->frame].held;
     }
-    for (int32_t a = 0; a < count; ++a) {
+    KIRI_TIMES(a, count) {
         AddCarried(solver, &carriers[a], pull);
         for (int32_t b = 0; b <= a; ++b) {
             double block[36];
@@ -774,7 +774,7 @@ void kiriSolver_LimitByFriction(kiriSolver* solver)
         return;
     }
     double low = 0.0, high = search->scale;
-    for (int halving = 0; halving < SLIDE_HALVINGS; ++halving) {
+    KIRI_TIMES(halving, SLIDE_HALVINGS) {
         search->scale = 0.5 * (low + high);
         double slope = SlopeAt(solver, search->scale);
         low = slope > 0.0 ? low : search->scale;
@@ -924,7 +924,7 @@ static void ShareMass(kiriSolver* solver)
    large turn, other points of the material are below planes. */
 static void TurnBack(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
         kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
         double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
@@ -962,7 +962,7 @@ static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContact
 static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
 {
     bool any = false;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, step, step->members[m].frame);
     }
     return any;
@@ -980,7 +980,7 @@ static bool HoldWhole(kiriSolver* solver, const kiriSystem* system, kiriContactS
     }
     double push = depth / (share / inertia + step->shared);
     step->push += push;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         if (!system->frames[f].held) {
             solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
         }
@@ -993,10 +993,10 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
 {
     bool isLeft = true;
     double mass = 0.0;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
     }
-    for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
+    KIRI_TIMES_WHILE(isLeft, sweep, SWEEPS) {
         isLeft = false;
         KIRI_EACH(kiriContactStep, step, solver->contacts) {
             if (kiriContact_IsMutual(step)) {
@@ -1085,7 +1085,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
         }
         given = kiriVec3_Add(given, GivenForce(step));
     }
-    for (int32_t f = 0; isMovedByThem && f < system->frameCount; ++f) {
+    KIRI_TIMES_WHILE(isMovedByThem, f, system->frameCount) {
         kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
         asked = kiriVec3_AddScaled(asked, system->frames[f].mass / (part * part), way);
     }
@@ -1132,14 +1132,14 @@ static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
 {
     double part = solver->stepping.part;
     Pinned sum = { .isPinned = !kiriSystem_HasWind(system) && system->clampCount == 0 && !solver->isHeld, .more = 1.0 };
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
         kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
         kiriVec3 change = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
         change = kiriVec3_AddScaled(change, -solver->dt, kiriVec3_Add(gravity, before->force));
         sum.asked = kiriVec3_Add(sum.asked, change);
     }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
+    KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
         sum.asked = kiriVec3_AddScaled(sum.asked, part * pin->stiffness, off);
@@ -1177,7 +1177,7 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
 {
     kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0 };
     kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
-    for (int32_t m = 0; m < step->memberCount; ++m) {
+    KIRI_TIMES(m, step->memberCount) {
         kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
         way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
     }
@@ -1246,7 +1246,7 @@ static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
     solver->touch.keepForces *= sum.more;
     sum.given = kiriVec3_Scale(sum.more, sum.given);
     bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
-    for (int32_t k = 0; isBalanced && k < system->pinCount; ++k) {
+    KIRI_TIMES_WHILE(isBalanced, k, system->pinCount) {
         if (solver->pinReactions.data[k] == NULL) {
             continue;
         }

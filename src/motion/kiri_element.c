@@ -66,7 +66,7 @@ static void SlopesOf(const SurfaceState* s, double lean, SurfaceState slope[KIRI
         { zero, s->d, zero, zero, s->v },
         { zero, zero, zero, zero, s->d },
     };
-    for (int e = 0; e < KIRI_AREA_STRAINS; ++e) {
+    KIRI_TIMES(e, KIRI_AREA_STRAINS) {
         slope[e] = slopes[e];
     }
 }
@@ -84,12 +84,12 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
     SurfaceState shape = SurfaceStateOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
     double all[KIRI_AREA_STRAINS];
     StrainsOf(&shape, element->lean, all);
-    for (int e = element->firstRow; e < element->lastRow; ++e) {
+    KIRI_FROM_TO(e, element->firstRow, element->lastRow) {
         strain[e - element->firstRow] = all[e];
     }
     if (rows != NULL) {
         SlopesOf(&shape, element->lean, slope);
-        for (int e = element->firstRow; e < element->lastRow; ++e) {
+        KIRI_FROM_TO(e, element->firstRow, element->lastRow) {
             KIRI_EACH_INDEX(k, *element) {
                 const kiriFrameShare* share = &shares[element->first + k];
                 kiriVec3 bend = kiriVec3_Scale(share->slope.x, slope[e].du);
@@ -110,7 +110,7 @@ void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMateria
     double G = 0.5 * E / (1.0 + nu) * h * element->area, K = 0.5 * E / (1.0 - nu) * h * element->area,
            bend = h * h / 12.0;
     const double all[KIRI_AREA_STRAINS] = { K, G, G, bend * K, bend * G, bend * G, G, G, E * h * element->area };
-    for (int e = element->firstRow; e < element->lastRow; ++e) {
+    KIRI_FROM_TO(e, element->firstRow, element->lastRow) {
         stiffness[e - element->firstRow] = all[e];
     }
 }
@@ -186,7 +186,7 @@ static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material
     double rest = kiriRoot(perArea * about.vv - v * v);
     const kiriVec2 off[4] = { { u, v }, { -u, -v }, { 0.0, rest }, { 0.0, -rest } };
     bool ok = true;
-    for (int k = 0; ok && k < 4; ++k) {
+    KIRI_TIMES_WHILE(ok, k, 4) {
         ok = AddAreaElement(b, point, off[k], 0.25 * about.area);
     }
     return ok;
@@ -266,7 +266,7 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
         return AddIntegrationPoint(b, &points->data[0], &material);
     }
     ok = ok && DividePiece(b);
-    for (int32_t i = 0; ok && i < points->count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, points->count) {
         ok = AddIntegrationPoint(b, &points->data[i], &work->material.data[i]);
     }
     return ok;

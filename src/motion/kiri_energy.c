@@ -1,8 +1,6 @@
 #include "kiri_energy.h"
 #include "kiri_solver.h"
 
-#include <string.h>
-
 /* ---- The frames after the step ---- */
 
 /* Moves a free body to the predicted centre of mass, which no inner force moves, however incomplete the iteration. */
@@ -13,13 +11,13 @@ void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
     if (solver->support != KIRI_SUPPORT_NONE) {
         return;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
         mean = kiriVec3_AddScaled(mean, system->frames[f].mass, off);
         mass += system->frames[f].mass;
     }
     if (0.5 * (kiriVec3_Dot(mean, mean) / (mass * part * part)) > solver->search.noise) {
-        for (int32_t f = 0; f < system->frameCount; ++f) {
+        KIRI_TIMES(f, system->frameCount) {
             kiriVec3* x = &solver->poses.data[f].x;
             *x = kiriVec3_AddScaled(*x, 1.0 / mass, mean);
         }
@@ -88,7 +86,7 @@ static void EndAffine(const kiriPrediction* prediction, const kiriStepping* s, c
 
 static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
         const kiriFrameData* before = &solver->before.data[f];
         kiriFrameData* frame = &solver->after.data[f];
@@ -99,7 +97,7 @@ static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
             frame->velocity = prediction->velocity;
             frame->spin = prediction->spin;
             frame->rate = prediction->rate;
-            memset(&frame->history, 0, sizeof(frame->history));
+            KIRI_CLEAR(&frame->history);
             frame->history.dt = solver->stepping.h;
             frame->history.isHalf = solver->stepping.isHalf;
             frame->history.isHeld = 1;
@@ -155,7 +153,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
     energy->moving = 0.5 * solver->momentum.mass * kiriVec3_Dot(mean, mean);
     energy->gain = -KIRI_ROUNDING * (search->start.potential + search->now.potential) - search->noise +
                    search->now.potential - search->start.potential;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
         if (!start->held) {
             const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
@@ -246,7 +244,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     const kiriPieceMomentum* momentum = &solver->momentum;
     double credit = 0.0, most = MOST_CREDIT * (has->kinetic + has->moving);
     bool hasCredit = !solver->stepping.isEuler && solver->support != KIRI_SUPPORT_CONTACTS;
-    for (int32_t f = 0; hasCredit && f < system->frameCount; ++f) {
+    KIRI_TIMES_WHILE(hasCredit, f, system->frameCount) {
         credit += solver->before.data[f].history.credit;
     }
     credit = kiriMax(kiriMin(credit, most), 0.0);
@@ -256,7 +254,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     bool isOwn = solver->support == KIRI_SUPPORT_NONE || (isTouched && !IsThrown(solver));
     double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
     double left = hasCredit ? kiriMax(credit - has->gain, 0.0) / momentum->mass : 0.0;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriFrameData* frame = &solver->after.data[f];
         frame->history.credit = frame->held ? 0.0 : left * frame->mass;
         if (!frame->held && has->gain > credit) {
@@ -402,12 +400,12 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
     double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
     Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
     double missing = 0.0, held = 0.0;
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         LinkStrains strains = StrainsOfLink(&links[k], material, frames);
         missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
         held += EnergyOf(&links[k], &strains, rigidity);
     }
-    for (int32_t k = 0; k < clampCount; ++k) {
+    KIRI_TIMES(k, clampCount) {
         LinkStrains strains = StrainsOfClamp(&clamps[k], frames);
         /* The clamp has the strains halfway; so from the region to the line they change by twice the difference. */
         const kiriTensor *K = &fits[clamps[k].frame].bending, *E = &fits[clamps[k].frame].strain;
@@ -432,16 +430,16 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
     if (fits == NULL) {
         return false;
     }
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         LinkStrains strains = StrainsOfLink(&links[k], material, frames);
         AddToFit(&fits[links[k].i], &links[k], &strains);
         AddToFit(&fits[links[k].j], &links[k], &strains);
     }
-    for (int32_t k = 0; k < clampCount; ++k) {
+    KIRI_TIMES(k, clampCount) {
         LinkStrains strains = StrainsOfClamp(&clamps[k], frames);
         AddToFit(&fits[clamps[k].frame], &clamps[k].link, &strains);
     }
-    for (int32_t i = 0; i < frameCount; ++i) {
+    KIRI_TIMES(i, frameCount) {
         if (fits[i].weight > 0.0) {
             SolveFit(&fits[i]);
         }

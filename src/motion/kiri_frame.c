@@ -1,6 +1,5 @@
 #include "kiri_frame.h"
 
-#include <string.h>
 #include <float.h>
 
 #define MOST_GROWTH 2.0 /* of a step over the one before: BDF2 is stable up to 1 + sqrt 2 */
@@ -38,7 +37,7 @@ kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory*
 static void FindMassCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count,
                             kiriPieceMomentum* p)
 {
-    for (int32_t f = 0; f < count; ++f) {
+    KIRI_TIMES(f, count) {
         double m = before[f].held ? 0.0 : before[f].mass;
         p->mass += m;
         p->centerBefore = kiriVec3_AddScaled(p->centerBefore, m, before[f].x);
@@ -107,7 +106,7 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
                           const kiriMaterial* const* materials, kiriVec3 gravity, double dt, const kiriVec3* normal)
 {
     FindMassCenters(before, after, count, p);
-    for (int32_t f = 0; f < count; ++f) {
+    KIRI_TIMES(f, count) {
         if (!before[f].held) {
             AddFrameTurning(p, &before[f], &after[f], materials[f], gravity, dt);
         }
@@ -115,7 +114,7 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
     if (p->mass > 0.0) {
         FindMissing(p, normal);
     }
-    for (int32_t f = 0; (p->isFree || p->isPushed) && f < count; ++f) {
+    KIRI_TIMES_WHILE(p->isFree || p->isPushed, f, count) {
         kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
         after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Add(p->move, kiriVec3_Cross(p->turn, arm)));
         after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
@@ -236,7 +235,7 @@ static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec
 {
     kiriVec3 start = kiriMat3_MulTransposed(A, L), end = start;
     kiriMat3 turn = IdentityAxes;
-    for (int iteration = 0; iteration < 30; ++iteration) {
+    KIRI_TIMES(iteration, 30) {
         kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
         kiriVec3 w = kiriMat3_Solve(bodyInertia, middle); /* the Cayley vector of |w| about it, to the sixth order: */
         double ww = kiriVec3_Dot(w, w);
@@ -255,7 +254,7 @@ static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVe
 {
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
     kiriMat3 turned = *A;
-    for (int part = 0; part < parts; ++part) {
+    KIRI_TIMES(part, parts) {
         turned = TurnPart(&turned, bodyInertia, L, h / parts);
     }
     return turned;
@@ -422,16 +421,16 @@ bool kiriFrame_FitsFloats(const kiriFrameData* frame)
 
 void kiriFrame_PutToRest(kiriFrameData* frame)
 {
-    memset(&frame->velocity, 0, sizeof(kiriVec3));
-    memset(&frame->spin, 0, sizeof(kiriVec3));
-    memset(&frame->rate, 0, sizeof(kiriMat3));
-    memset(&frame->history, 0, sizeof(kiriHistory));
+    KIRI_CLEAR(&frame->velocity);
+    KIRI_CLEAR(&frame->spin);
+    KIRI_CLEAR(&frame->rate);
+    KIRI_CLEAR(&frame->history);
 }
 
 void kiriFrame_DropForces(kiriFrameData* frame)
 {
-    memset(&frame->force, 0, sizeof(kiriVec3));
-    memset(&frame->torque, 0, sizeof(kiriVec3));
+    KIRI_CLEAR(&frame->force);
+    KIRI_CLEAR(&frame->torque);
 }
 
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)

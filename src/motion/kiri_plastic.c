@@ -1,7 +1,5 @@
 #include "kiri_plastic.h"
 
-#include <string.h>
-
 /* ---- The law ----------------------------------------------------------------------------------------------------- */
 
 static double SectionMoment(double c, double hardening)
@@ -19,7 +17,7 @@ void kiriYield_Begin(kiriYield* yield, const kiriPlastic* plastic, const kiriMat
                      const kiriBentStrain* stiffness, const kiriBentStrain* offset, const kiriBentStrain* strain)
 {
     double E = (double)material->youngsModulus, h = (double)material->thickness;
-    memset(yield, 0, sizeof(*yield));
+    KIRI_CLEAR(yield);
     yield->start = *offset;
     yield->elastic = (kiriBentStrain){ strain->bending - offset->bending, strain->twist - offset->twist, 0.0 };
     if (material->yieldStress > 0.0f && stiffness->bending > 0.0) {
@@ -69,7 +67,7 @@ void kiriYield_Flow(kiriYield* yield, const kiriBentStrain* strain, bool mayFlow
 void kiriYield_TurnRows(const kiriYield* yield, int width, double* bending, double* twist, double* const elastic[2])
 {
     double a = yield->along[0], b = yield->along[1], root = sqrt(yield->perTwist);
-    for (int n = 0; yield->turns && n < width; ++n) {
+    KIRI_TIMES_WHILE(yield->turns, n, width) {
         double along = a * bending[n] + b * root * twist[n], across = a * root * twist[n] - b * bending[n];
         bending[n] = along;
         twist[n] = across;
@@ -78,7 +76,7 @@ void kiriYield_TurnRows(const kiriYield* yield, int width, double* bending, doub
             elastic[1][n] = (b * yield->slope * along + a * yield->share * across) / root;
         }
     }
-    for (int n = 0; !yield->turns && elastic[0] != NULL && n < width; ++n) {
+    KIRI_TIMES_WHILE(!yield->turns && elastic[0] != NULL, n, width) {
         elastic[0][n] *= yield->share;
         elastic[1][n] *= yield->share;
     }
@@ -218,17 +216,17 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
 {
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
     linkCount = kiriLink_CountBorders(links, linkCount);
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         kiriVec2 curvature = CurvatureOf(&yields[k].elastic, &links[k]);
         AddLink(&regions[links[k].i], &links[k], curvature, 0.0);
         AddLink(&regions[links[k].j], &links[k], curvature, 0.0);
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         if (regions[f].weight > 0.0) {
             SolveRegion(&regions[f]);
         }
     }
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         const kiriTensor *a = &regions[links[k].i].bent, *b = &regions[links[k].j].bent;
         double mean = 0.25 * (a->uu + a->vv + b->uu + b->vv), half = 0.25 * (a->uu - a->vv + b->uu - b->vv);
         double across = 0.5 * (a->uv + b->uv), most = fabs(mean) + sqrt(half * half + across * across);
@@ -265,7 +263,7 @@ void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_
         AddLink(&regions[links[k].i], &links[k], curvature, plastics->links.data[k].reach);
         AddLink(&regions[links[k].j], &links[k], curvature, plastics->links.data[k].reach);
     }
-    for (int32_t f = 0; f < oldCount; ++f) {
+    KIRI_TIMES(f, oldCount) {
         if (regions[f].weight > 0.0) {
             SolveRegion(&regions[f]);
         }
@@ -308,12 +306,12 @@ void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLi
                        const int32_t* from)
 {
     KIRI_ASSERT(linkCount <= plastics->next.capacity && linkCount <= plastics->links.capacity);
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         const kiriLink *link = &links[k], *was = from[k] != KIRI_NONE ? &old[from[k]] : NULL;
         kiriPlastic* next = &plastics->next.data[k];
         bool hasOlder = was != NULL && from[k] < plastics->links.count;
         if (link->fold != 0 && !hasOlder) {
-            memset(next, 0, sizeof(*next));
+            KIRI_CLEAR(next);
             continue;
         }
         if (hasOlder && (link->fold != 0 || memcmp(was, link, sizeof(*link)) == 0)) {

@@ -1,7 +1,5 @@
 #include "kiri_refit.h"
 
-#include <string.h>
-
 /* ---- Dirty squares ----------------------------------------------------------------------------------------------- */
 
 static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t square)
@@ -66,7 +64,7 @@ static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* m
     while (triangle >= ownership->triangleCount) {
         triangle = mesh->triangles.data[triangle].parent;
     }
-    for (int32_t k = owners->parts.first; k < owners->parts.first + owners->parts.count; ++k) {
+    KIRI_FROM_TO(k, owners->parts.first, owners->parts.first + owners->parts.count) {
         const kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
         if (owned->triangle == triangle) {
             return owned->owner;
@@ -180,7 +178,7 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
         return KIRI_MORE;
     }
     refit->most = 0;
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         refit->most += ownership->first.data[f] != KIRI_NONE;
     }
     bool hasRoom =
@@ -218,7 +216,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
 {
     KIRI_ASSERT(ownership->dirty.count == 0 && ownership->staged.count == 0);
     kiriTriangleOwner* owned = ownership->triangleOwners.data;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         kiriSpan* parts = &ownership->squares.data[of[k]].parts;
         int32_t cell = grid->squareCell.data[of[k]], kept = 0;
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
@@ -233,12 +231,12 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
     bool moves = kiriKeep_Moves(triangles) || kiriKeep_Moves(frames);
     KIRI_EACH_WHILE(moves, kiriSquareOwners, owners, ownership->squares) {
         owners->owner = kiriKeep_To(frames, owners->owner);
-        for (int32_t p = owners->parts.first; p < owners->parts.first + owners->parts.count; ++p) {
+        KIRI_FROM_TO(p, owners->parts.first, owners->parts.first + owners->parts.count) {
             owned[p].triangle = kiriKeep_To(triangles, owned[p].triangle);
             owned[p].owner = kiriKeep_To(frames, owned[p].owner);
         }
     }
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         int32_t cell = grid->squareCell.data[of[k]];
         ownership->squares.data[of[k]].owner = cell == KIRI_NONE ? KIRI_NONE : regions->field.owner.data[cell];
     }
@@ -275,7 +273,7 @@ static void SubtractTally(kiriTally* sum, const kiriTally* part)
     kiriExact a[6], b[6];
     memcpy(a, sum, sizeof(a));
     memcpy(b, part, sizeof(b));
-    for (int k = 0; k < 6; ++k) {
+    KIRI_TIMES(k, 6) {
         a[k].high -= b[k].high;
         a[k].low -= b[k].low;
         if (a[k].low < 0) {
@@ -454,19 +452,19 @@ static double RootOfShare(double part, double whole)
 static void GatherBodies(kiriFitBody* bodies, int32_t pieceCount, const kiriFrameData* frames, int32_t frameCount,
                          const int32_t* framePiece, const kiriMaterial* material)
 {
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         kiriFitBody* body = &bodies[framePiece[f]];
         body->mass += frames[f].mass;
         body->energy += kiriFrame_KineticEnergy(&frames[f], material);
         body->x = kiriVec3_AddScaled(body->x, frames[f].mass, frames[f].x);
         body->velocity = kiriVec3_AddScaled(body->velocity, frames[f].mass, frames[f].velocity);
     }
-    for (int32_t p = 0; p < pieceCount; ++p) {
+    KIRI_TIMES(p, pieceCount) {
         KIRI_ASSERT(bodies[p].mass > 0.0);
         bodies[p].x = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].x);
         bodies[p].velocity = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].velocity);
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         kiriFitBody* body = &bodies[framePiece[f]];
         kiriVec3 arm = kiriVec3_Sub(frames[f].x, body->x);
         kiriVec3 velocity = kiriVec3_Sub(frames[f].velocity, body->velocity);
@@ -497,7 +495,7 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
         bodies[framePiece[fit->frame]].gained += fit->gained;
     }
     GatherBodies(bodies, pieceCount, frames, frameCount, framePiece, material);
-    for (int32_t p = 0; p < pieceCount; ++p) {
+    KIRI_TIMES(p, pieceCount) {
         kiriFitBody* body = &bodies[p];
         body->spin = kiriMat3_Solve(&body->inertia, body->angular);
         double moving = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
@@ -505,7 +503,7 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
         body->beside = RootOfShare(due - moving - turning, body->energy - moving - turning);
         body->turning = body->beside > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         const kiriFitBody* body = &bodies[framePiece[f]];
         if (body->gained > 0.0 && !frames[f].held) {
             kiriVec3 round = kiriVec3_Cross(body->spin, kiriVec3_Sub(frames[f].x, body->x));

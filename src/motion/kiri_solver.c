@@ -1,8 +1,6 @@
 #include "kiri_solver.h"
 #include "../core/kiri_archive.h"
 
-#include <string.h>
-
 /* ---- Unknowns --------------------------------------------------------------------------------------------------- */
 
 static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
@@ -12,8 +10,8 @@ static void ChooseUnknowns(kiriSolver* solver, const kiriMechanics* mechanics)
     bool affine = kiriMechanics_IsAffine(mechanics), planar = mechanics->planar;
     int vectors = !affine ? 2 : planar ? 3 : 4;
     solver->size = 0;
-    for (int vector = 0; vector < vectors; ++vector) {
-        for (int axis = 0; axis < 3; ++axis) {
+    KIRI_TIMES(vector, vectors) {
+        KIRI_TIMES(axis, 3) {
             /* In the plane, a rigid frame turns about the normal; nothing else leaves along it. */
             bool turns = !affine && vector == 1;
             if (!planar || (axis == 2) == turns) {
@@ -30,7 +28,7 @@ void kiriSolver_Reduce(const kiriSolver* solver, const kiriFrameRow* row, double
         memcpy(values, row->by, sizeof(double) * (size_t)solver->size); /* the axes of space */
         return;
     }
-    for (int32_t n = 0; n < solver->size; ++n) {
+    KIRI_TIMES(n, solver->size) {
         values[n] = kiriVec3_Dot(row->by[solver->unknowns[n].vector], solver->unknowns[n].axis);
     }
 }
@@ -44,7 +42,7 @@ kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const dou
         }
         return vectors;
     }
-    for (int32_t n = 0; n < solver->size; ++n) {
+    KIRI_TIMES(n, solver->size) {
         kiriVec3* by = &vectors.by[solver->unknowns[n].vector];
         *by = kiriVec3_AddScaled(*by, scale * values[n], solver->unknowns[n].axis);
     }
@@ -69,7 +67,7 @@ static kiriSystem SystemOf(const kiriSolverBodies* bodies, const kiriSolverBody*
                            kiriAreaElements* elements)
 {
     kiriSystem system = *sheet;
-    memset(elements, 0, sizeof(*elements));
+    KIRI_CLEAR(elements);
     elements->elements.data = bodies->areaElements.elements.data + body->elements.first;
     elements->elements.count = body->elements.count;
     elements->shares.data = bodies->areaElements.shares.data;
@@ -162,7 +160,7 @@ static void ShareOut(kiriSolverBodies* bodies, size_t span, const kiriSystem* sy
                      int32_t* order)
 {
     const int32_t* bodyOf = bodies->bodyOf.data;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         ((kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span))->count += 1;
     }
     for (int32_t b = 0, first = 0; b < bodies->bodies.count; ++b) {
@@ -171,7 +169,7 @@ static void ShareOut(kiriSolverBodies* bodies, size_t span, const kiriSystem* sy
         first += of->count;
         of->count = 0;
     }
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         kiriSpan* of = (kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span);
         order[of->first + of->count++] = k;
     }
@@ -182,7 +180,7 @@ static void TakeLinks(kiriSolver* solver, const kiriSystem* system)
     kiriSolverBodies* bodies = &solver->next;
     ShareOut(bodies, offsetof(kiriSolverBody, links), system, kiriElement_LinkCount(system), FrameOfLink,
              bodies->links.data);
-    for (int32_t n = 0; n < kiriElement_LinkCount(system); ++n) {
+    KIRI_TIMES(n, kiriElement_LinkCount(system)) {
         int32_t k = bodies->links.data[n], body = bodies->bodyOf.data[system->links[k].i];
         KIRI_ASSERT(bodies->bodyOf.data[system->links[k].j] == body);
         kiriLink* link = &bodies->ownLinks.data[n];
@@ -198,7 +196,7 @@ static void TakeCorners(kiriSolver* solver, const kiriSystem* system)
     kiriSolverBodies* bodies = &solver->next;
     int32_t count = kiriElement_CornerCount(system);
     ShareOut(bodies, offsetof(kiriSolverBody, corners), system, count, FrameOfCorner, solver->order.data);
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         kiriCorner* corner = &bodies->corners.data[n];
         *corner = system->corners[solver->order.data[n]];
         KIRI_EACH_INDEX(k, *corner) {
@@ -215,7 +213,7 @@ static void TakeAreas(kiriSolver* solver, const kiriSystem* system)
         return;
     }
     ShareOut(bodies, offsetof(kiriSolverBody, elements), system, count, FrameOfArea, solver->order.data);
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         bodies->areaElements.elements.data[n] = system->areaElements->elements.data[solver->order.data[n]];
     }
     KIRI_EACH_INDEX(n, bodies->areaElements.shares) {
@@ -229,7 +227,7 @@ static void ShareOutAll(kiriSolver* solver, const kiriSystem* system, const int3
 {
     kiriSolverBodies* bodies = &solver->next;
     memset(bodies->bodies.data, 0, sizeof(kiriSolverBody) * (size_t)bodies->bodies.count);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         KIRI_ASSERT(framePiece[f] >= 0 && framePiece[f] < bodies->bodies.count);
         bodies->bodyOf.data[f] = framePiece[f];
     }
@@ -253,7 +251,7 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
     bool found = false;
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+    KIRI_TIMES_WHILE(corner != NULL, n, corner->count) {
         const kiriLink* link = &system->links[corner->link[n]];
         found |= link->i == pair.a && link->j == pair.b;
     }
@@ -264,10 +262,10 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
 static bool CollectPairs(kiriSolver* solver, const kiriSystem* body)
 {
     solver->pairs.count = 0;
-    for (int32_t k = 0; k < kiriElement_Count(body); ++k) {
+    KIRI_TIMES(k, kiriElement_Count(body)) {
         int32_t *members = solver->members.data, count = kiriElement_Members(body, k, members);
-        for (int32_t b = 1; b < count; ++b) {
-            for (int32_t a = 0; a < b; ++a) {
+        KIRI_FROM_TO(b, 1, count) {
+            KIRI_TIMES(a, b) {
                 kiriPair pair = { members[a], members[b] };
                 if (!IsPairOfLink(body, k, pair) && !kiriArray_Push(solver->memory, &solver->pairs, pair)) {
                     return false;
@@ -342,7 +340,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
     }
     ShareOutAll(solver, next, framePiece);
     solver->isStaged = true;
-    for (int32_t b = 0; solver->isStaged && b < pieceCount; ++b) {
+    KIRI_TIMES_WHILE(solver->isStaged, b, pieceCount) {
         kiriSolverBody* body = &solver->next.bodies.data[b];
         kiriAreaElements elements;
         kiriSystem system = SystemOf(&solver->next, body, next, &elements);
@@ -391,7 +389,7 @@ bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_
         return false;
     }
     ShareOutAll(solver, &system, framePiece);
-    for (int32_t b = 0; b < pieceCount; ++b) {
+    KIRI_TIMES(b, pieceCount) {
         solver->next.bodies.data[b].matrix = kiriMatrix_Create(solver->memory, solver->size);
         if (solver->next.bodies.data[b].matrix == NULL) {
             return false;
@@ -465,7 +463,7 @@ kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
 uint64_t kiriSolver_Hash(const kiriSolver* solver)
 {
     uint64_t hash = kiriMatrix_Hash(solver->bodies.bodies.data[0].matrix);
-    for (int32_t b = 1; b < solver->bodies.bodies.count; ++b) {
+    KIRI_FROM_TO(b, 1, solver->bodies.bodies.count) {
         kiriHash_Word(&hash, kiriMatrix_Hash(solver->bodies.bodies.data[b].matrix));
     }
     return hash;
@@ -489,7 +487,7 @@ int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contac
 int64_t kiriSolver_WorkOfIsland(const kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count)
 {
     int64_t frames = 0, contacts = 0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         const kiriSolverBody* body = &bodies[n].solver->bodies.bodies.data[bodies[n].body];
         frames += body->frames.count;
         contacts += body->contactCount;
@@ -660,7 +658,7 @@ static kiriSystem SumSystems(const kiriSolver* solver, const kiriIslandBody* bod
 {
     kiriSystem system = *bodies[0].sheet;
     system.frameCount = system.linkCount = system.cornerCount = 0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         const kiriSolverBody* body = BodyOfMember(&bodies[n]);
         const kiriSystem* sheet = bodies[n].sheet;
         KIRI_ASSERT(sheet->mechanics.model == system.mechanics.model && !sheet->mechanics.planar);
@@ -691,7 +689,7 @@ kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int
     solver->sources.count = solver->pins.count = solver->clamps.count = 0;
     solver->islandLinks.count = solver->islandCorners.count = 0;
     solver->islandElements.elements.count = solver->islandElements.shares.count = 0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         KIRI_ASSERT(BodyOfMember(&bodies[n])->isMoved);
         KIRI_ASSERT(bodies[n].sheet->frameCount == bodies[n].solver->bodies.bodyOf.count);
         TakeFrames(solver, &bodies[n]);
@@ -733,7 +731,7 @@ void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32
     double sum = 0.0;
     for (int32_t n = 0; n < *count && kept < KIRI_CONTACT_SIDE; ++n) {
         bool isCoupled = true;
-        for (int32_t m = 0; isCoupled && m < kept; ++m) {
+        KIRI_TIMES_WHILE(isCoupled, m, kept) {
             kiriPair pair = { bodies->place.data[weights[m].frame], bodies->place.data[weights[n].frame] };
             isCoupled = kiriMatrix_Covers(matrix, pair);
         }
@@ -742,7 +740,7 @@ void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32
             sum += weights[kept - 1].value;
         }
     }
-    for (int32_t n = 0; n < kept; ++n) {
+    KIRI_TIMES(n, kept) {
         weights[n].value /= sum;
     }
     *count = kept;
@@ -760,7 +758,7 @@ static bool AddContactPairs(kiriMemory* memory, kiriIslandMatrix* island, const 
     bool ok = true;
     for (int32_t k = BodyOfMember(member)->contact; ok && k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
         const kiriContactRow* row = &member->sheet->contacts[k];
-        for (int32_t i = 0; ok && row->other != NULL && i < row->weightCount * row->otherCount; ++i) {
+        KIRI_TIMES_WHILE(ok && row->other != NULL, i, row->weightCount * row->otherCount) {
             int32_t a = row->weights[i / row->otherCount].frame, b = row->otherWeights[i % row->otherCount].frame;
             ok = AddPair(memory, island, IslandFrame(member->solver, a), IslandFrame(row->other, b));
         }
@@ -773,10 +771,10 @@ static bool AddStitchPairs(kiriMemory* memory, kiriIslandMatrix* island, kiriSti
 {
     bool ok = true;
     for (kiriStitchRow* row = stitches; ok && row != NULL; row = row->next) {
-        for (int32_t a = 0; a < row->counts[0] + row->counts[1]; ++a) {
+        KIRI_TIMES(a, row->counts[0] + row->counts[1]) {
             KIRI_ASSERT(row->solvers[a >= row->counts[0]] != NULL);
             row->members[a].frame = IslandFrame(row->solvers[a >= row->counts[0]], row->members[a].frame);
-            for (int32_t b = 0; ok && b < a; ++b) {
+            KIRI_TIMES_WHILE(ok, b, a) {
                 ok = AddPair(memory, island, row->members[a].frame, row->members[b].frame);
             }
         }
@@ -792,7 +790,7 @@ static bool AddBodyPairs(kiriMemory* memory, kiriIslandMatrix* island, const kir
         return false;
     }
     kiriMatrix_GetPairs(body->matrix, &island->next.data[first]);
-    for (int32_t k = first; k < island->next.count; ++k) {
+    KIRI_FROM_TO(k, first, island->next.count) {
         island->next.data[k].a += body->island;
         island->next.data[k].b += body->island;
     }
@@ -803,7 +801,7 @@ static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int3
 {
     kiriMemory* memory = solver->memory;
     int64_t links = 0, corners = 0, areas = 0, shares = 0, pins = 0, clamps = 0, contacts = 0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         const kiriSolverBody* body = BodyOfMember(&bodies[n]);
         links += body->links.count;
         corners += body->corners.count;
@@ -822,7 +820,7 @@ static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int3
     kiriAreaElements* elements = &solver->islandElements;
     elements->elements.count = elements->shares.count = 0;
     solver->islandLinks.count = solver->islandCorners.count = 0;
-    for (int32_t n = 0; ok && n < count; ++n) {
+    KIRI_TIMES_WHILE(ok, n, count) {
         TakeElements(solver, &bodies[n]);
     }
     system.links = solver->islandLinks.data;
@@ -835,12 +833,12 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
 {
     int32_t frames = 0;
     bool ok = true;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         BodyOfMember(&bodies[n])->island = frames;
         frames += BodyOfMember(&bodies[n])->frames.count;
     }
     island->next.count = 0;
-    for (int32_t n = 0; ok && n < count; ++n) {
+    KIRI_TIMES_WHILE(ok, n, count) {
         ok = AddBodyPairs(memory, island, &bodies[n]) && AddContactPairs(memory, island, &bodies[n]);
     }
     if (!ok || !AddStitchPairs(memory, island, stitches) || !ReserveIsland(solver, bodies, count)) {
@@ -871,7 +869,7 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
 
 static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
 {
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         if (!kiriFrame_FitsFloats(&solver->after.data[f])) {
             return false;
         }
@@ -881,7 +879,7 @@ static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
 
 static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriFrameData* frame = solver->sources.data[f].frame;
         const kiriFrameData* end = &solver->after.data[f];
         frame->x = end->x;
@@ -900,8 +898,8 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
 {
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     if (isEuler || solver->isTouched || kiriSolver_AreTouching(solver, system, solver->poses.data)) {
-        for (int32_t f = 0; f < system->frameCount; ++f) {
-            memset(&solver->after.data[f].history, 0, sizeof(kiriHistory));
+        KIRI_TIMES(f, system->frameCount) {
+            KIRI_CLEAR(&solver->after.data[f].history);
         }
     }
 }
@@ -923,7 +921,7 @@ static void KeepFlow(const kiriSolver* solver, const kiriSystem* system)
         }
         first += links.count;
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         kiriClampRow* row = &system->clamps[k];
         if (row->keptPlastic != NULL) {
             double strain[KIRI_CLAMP_STRAINS];
@@ -952,7 +950,7 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
     KeepFlow(solver, &system);
     kiriSolver_EndContacts(solver, &system);
     WriteFrames(solver, &system);
-    for (int32_t k = 0; k < system.clampCount; ++k) {
+    KIRI_TIMES(k, system.clampCount) {
         solver->clampRows.data[k]->start = solver->clampRows.data[k]->pose;
     }
     return done;
@@ -1046,10 +1044,10 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
     }
     /* A corner counts as much as the link that counts least. */
     double part = system->linkParts != NULL && link != NULL ? system->linkParts[k].part : 1.0;
-    for (int32_t n = 0; system->linkParts != NULL && corner != NULL && n < corner->count; ++n) {
+    KIRI_TIMES_WHILE(system->linkParts != NULL && corner != NULL, n, corner->count) {
         part = kiriMin(system->linkParts[corner->link[n]].part, part);
     }
-    for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
+    KIRI_TIMES_WHILE(part < 1.0, e, kiriElement_StrainCount(system, k)) {
         stiffness[e] *= part;
     }
 }
@@ -1084,8 +1082,8 @@ static void MeasureRigidRows(const kiriSystem* system, const kiriLink* link, con
 {
     kiriStrainRow found[KIRI_STRAINS];
     MeasureRigidLink(system, link, poses, strain, rows != NULL ? found : NULL);
-    for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
-        for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES_WHILE(rows != NULL, e, KIRI_STRAINS) {
+        KIRI_TIMES(end, 2) {
             rows[2 * e + end].by[0] = found[e].end[end].move;
             rows[2 * e + end].by[1] = found[e].end[end].turn;
         }
@@ -1099,7 +1097,7 @@ static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, co
     double strains[4][KIRI_STRAINS];
     kiriStrainRow found[4][KIRI_STRAINS];
     const double* const all[4] = { strains[0], strains[1], strains[2], strains[3] };
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         MeasureRigidLink(system, &system->links[corner->link[k]], poses, strains[k], rows != NULL ? found[k] : NULL);
     }
     kiriTrace trace = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
@@ -1110,10 +1108,10 @@ static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, co
     int32_t members[4], ends[4][2];
     kiriTrace_Members(corner, system->links, members, ends);
     memset(rows, 0, sizeof(*rows) * (size_t)(traces * count));
-    for (int32_t k = 0; k < count; ++k) {
-        for (int s = 0; s < 2 * traces; ++s) {
+    KIRI_TIMES(k, count) {
+        KIRI_TIMES(s, 2 * traces) {
             const kiriStrainRow* row = &found[k][kiriTrace_Source(s)];
-            for (int end = 0; end < 2; ++end) {
+            KIRI_TIMES(end, 2) {
                 kiriVec3* by = rows[count * (s / 2) + ends[k][end]].by;
                 by[0] = kiriVec3_AddScaled(by[0], trace.by[k][s], row->end[end].move);
                 by[1] = kiriVec3_AddScaled(by[1], trace.by[k][s], row->end[end].turn);
@@ -1135,7 +1133,7 @@ static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corn
         LinkEnds link = LinkEndsOf(system, &system->links[corner->link[k]], poses);
         const kiriPose* const endPoses[2] = { &link.poses[0], &link.poses[1] };
         kiriFrameRow* own[2] = { 0 };
-        for (int end = 0; rows != NULL && end < 2; ++end) {
+        KIRI_TIMES_WHILE(rows != NULL, end, 2) {
             own[end] = &rows[ends[k][end]];
         }
         kiriAffine_AddTrace(corner->weight[k], endPoses, strain, rows != NULL ? own : NULL);
@@ -1187,7 +1185,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
             all[n] = system->strainOffsets[corner->link[n]].strain;
         }
         kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
-        for (int e = 0; e < count; ++e) {
+        KIRI_TIMES(e, count) {
             pulling[e] = strain[e] - offset.strain[e];
         }
     }
@@ -1196,12 +1194,12 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
 double kiriSolver_ElasticEnergy(const kiriSystem* system)
 {
     double sum = 0.0;
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
+    KIRI_TIMES(k, kiriElement_Count(system)) {
         double strain[KIRI_MOST_STRAINS], stiffness[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
         kiriElement_Measure(system, k, NULL, strain, NULL);
         kiriElement_Stiffness(system, k, stiffness);
         kiriElement_TakeOffsets(system, k, strain, pulling);
-        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+        KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
             sum += 0.5 * stiffness[e] * pulling[e] * pulling[e];
         }
     }

@@ -10,7 +10,6 @@
 #include "../solver/kiri_matrix.h"
 
 #include <float.h>
-#include <string.h>
 
 KIRI_C_BEGIN
 

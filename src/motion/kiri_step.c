@@ -1,7 +1,5 @@
 #include "kiri_solver.h"
 
-#include <string.h>
-
 #define LONGEST_TURN 1.0 /* of a frame in a step of second order */
 
 /* ---- Planar sheets ---- */
@@ -71,13 +69,13 @@ static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
         system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER) {
         return;
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriVec3 change = kiriVec3_Sub(solver->predictions.data[f].velocity, solver->before.data[f].velocity);
         mean = kiriVec3_AddScaled(mean, system->frames[f].mass, change);
         mass += system->frames[f].mass;
     }
     KIRI_ASSERT(mass > 0.0);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriPrediction* prediction = &solver->predictions.data[f];
         prediction->shift = kiriVec3_Scale(-0.5 * solver->stepping.h / mass, mean);
         prediction->pose.x = kiriVec3_Add(prediction->pose.x, prediction->shift);
@@ -88,7 +86,7 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
 {
     kiriVec3 gravity = kiriSystem_Gravity(system);
     bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData* frame = &solver->before.data[f];
         const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
         solver->predictions.data[f] = frame->held ? kiriPrediction_Held(frame, material, solver->stepping.h)
@@ -115,7 +113,7 @@ static bool IsBroken(const kiriFrameData* frame, double dt)
 static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* system)
 {
     kiriStepping chosen = kiriStepping_Euler(solver->dt);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData* frame = solver->sources.data[f].frame;
         if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || IsBroken(frame, solver->dt)) {
             return kiriStepping_Euler(solver->dt);
@@ -147,12 +145,12 @@ static bool IsSamePose(const kiriPose* a, const kiriPose* b)
 /* Returns true if the host moves a held frame, or a clamp: it goes to its place at once. */
 static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; solver->isHeld && f < system->frameCount; ++f) {
+    KIRI_TIMES_WHILE(solver->isHeld, f, system->frameCount) {
         if (system->frames[f].held && !IsSamePose(&solver->start.data[f], &solver->predictions.data[f].pose)) {
             return true;
         }
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         if (!IsSamePose(&system->clamps[k].start, &system->clamps[k].pose)) {
             return true;
         }
@@ -241,7 +239,7 @@ static kiriVec3 ForceOf(const WindSpring* spring, kiriVec3 point)
 bool kiriSystem_HasWind(const kiriSystem* system)
 {
     bool has = kiriAir_Blows(system->air);
-    for (int32_t f = 0; system->airs != NULL && !has && f < system->frameCount; ++f) {
+    KIRI_TIMES_WHILE(system->airs != NULL && !has, f, system->frameCount) {
         has = kiriAir_Blows(system->airs[f]);
     }
     return has;
@@ -250,8 +248,8 @@ bool kiriSystem_HasWind(const kiriSystem* system)
 static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses,
                           kiriStepEnergy* sum)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        for (int k = 0; !system->frames[f].held && k < SAMPLES; ++k) {
+    KIRI_TIMES(f, system->frameCount) {
+        KIRI_TIMES_WHILE(!system->frames[f].held, k, SAMPLES) {
             WindSpring spring = SpringAt(solver, system, f, k);
             kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, f, spring.at, poses), spring.target);
             double across = kiriVec3_Dot(off, spring.normal);
@@ -268,7 +266,7 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
     KIRI_ASSERT(f >= 0 && f < system->frameCount);
     const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
     double part = solver->stepping.part, first = 0.0, last = 0.0;
-    for (int k = 0; k < SAMPLES; ++k) {
+    KIRI_TIMES(k, SAMPLES) {
         WindSpring spring = SpringAt(solver, system, f, k);
         kiriVec3 from = kiriFrame_Carry(start, spring.at), to = kiriFrame_Carry(end, spring.at);
         kiriVec3 way = kiriVec3_Sub(to, from);
@@ -284,7 +282,7 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
 static kiriWrench WindOnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     kiriWrench sum = { 0 };
-    for (int k = 0; k < SAMPLES; ++k) {
+    KIRI_TIMES(k, SAMPLES) {
         WindSpring spring = SpringAt(solver, system, f, k);
         kiriVec3 point = kiriSystem_Point(system, f, spring.at, solver->poses.data);
         kiriVec3 force = ForceOf(&spring, point);
@@ -312,7 +310,7 @@ static void AddFlow(kiriStepEnergy* sum, double flow)
 static void AddStrains(int count, const double* stiffness, const double* loss, const double* start,
                        const double* strain, const double* pulling, kiriStepEnergy* sum)
 {
-    for (int e = 0; e < count; ++e) {
+    KIRI_TIMES(e, count) {
         double change = strain[e] - start[e];
         AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
     }
@@ -322,7 +320,7 @@ static void AddStrains(int count, const double* stiffness, const double* loss, c
 
 static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, kiriStepEnergy* sum)
 {
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         kiriClampRow* row = &system->clamps[k];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
@@ -331,7 +329,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
         AddStrains(row->strainCount, row->stiffness, row->loss, row->startStrain, strain, pulling, sum);
         row->stopping |= kiriClamp_IsStopped(row, strain);
     }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
+    KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
         AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
@@ -370,7 +368,7 @@ static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* 
 {
     kiriStepEnergy sum = { 0 };
     double part = solver->stepping.part;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
         kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
         double moved =
@@ -385,7 +383,7 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
     kiriStepEnergy sum = InertiaEnergy(solver, system, poses);
     /* Held frames start from where the host puts them: other strains than those at the start of the step. */
     bool isKnown = poses == solver->start.data && !solver->isHeld, hasStops = !system->mechanics.planar;
-    for (int32_t k = 0; k < solver->elementCount; ++k) {
+    KIRI_TIMES(k, solver->elementCount) {
         double pulling[KIRI_MOST_STRAINS];
         if (!isKnown) {
             MeasureElement(system, k, poses, solver->nowStrain.data);
@@ -409,7 +407,7 @@ static double CornerNoise(const kiriSolver* solver, const kiriSystem* system, co
                           const double* stiffness)
 {
     double weight = 0.0, reach = 0.0;
-    for (int32_t k = 0; k < corner->count; ++k) {
+    KIRI_TIMES(k, corner->count) {
         const kiriLink* link = &system->links[corner->link[k]];
         double size = kiriVec2_Length(corner->weight[k]);
         weight += size;
@@ -424,9 +422,9 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double strain[KIRI_MOST_STRAINS], sum = 0.0;
     kiriElement_Measure(system, k, solver->start.data, strain, solver->rows.data);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+    KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
         double reach = 0.0;
-        for (int32_t m = 0; m < count; ++m) {
+        KIRI_TIMES(m, count) {
             const kiriVec3* by = solver->rows.data[count * e + m].by;
             reach += kiriVec3_Length(by[0]) * kiriVec3_Length(solver->start.data[solver->members.data[m]].x) +
                      kiriVec3_Length(by[1]) + kiriVec3_Length(by[2]) + kiriVec3_Length(by[3]);
@@ -441,15 +439,15 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
 static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
     double part = solver->stepping.part, sum = 0.0, damping = 0.0;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         damping = kiriMax((double)kiriSystem_MaterialOf(system, f)->flexDamping / solver->dt, damping);
     }
     const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + damping);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         kiriVec3 x = solver->start.data[f].x;
         sum += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
     }
-    for (int32_t k = 0; k < solver->elementCount; ++k) {
+    KIRI_TIMES(k, solver->elementCount) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
         double noise = kiriElement_IsRigidCorner(system, k)
                            ? CornerNoise(solver, system, kiriElement_Corner(system, k), stiffness)
@@ -463,7 +461,7 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
         }
         sum += share * noise;
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         const kiriClampRow* row = &system->clamps[k];
         sum += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
@@ -482,7 +480,7 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
     const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
     const double* start = solver->startStrain.data;
     double least = kiriElement_IsRigidLink(system, k) ? kiriStrain_Damping(&start[KIRI_MOST_STRAINS * k]) : 1.0;
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+    KIRI_TIMES_WHILE(corner != NULL, n, corner->count) {
         double share = kiriStrain_Damping(&start[KIRI_MOST_STRAINS * corner->link[n]]);
         least = kiriMin(share, least);
     }
@@ -516,12 +514,12 @@ static void CenterHistories(kiriSolver* solver, int32_t frameCount)
     if (solver->support != KIRI_SUPPORT_NONE || solver->stepping.isEuler) {
         return;
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         kiriFrameData* frame = &solver->before.data[f];
         mean = kiriVec3_AddScaled(mean, frame->mass, *CarriedOn(&solver->stepping, &frame->history));
         mass += frame->mass;
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         kiriVec3* carried = CarriedOn(&solver->stepping, &solver->before.data[f].history);
         *carried = kiriVec3_AddScaled(*carried, -1.0 / mass, mean);
     }
@@ -531,7 +529,7 @@ static void CenterHistories(kiriSolver* solver, int32_t frameCount)
 static void BeginYields(kiriSolver* solver, const kiriSystem* system)
 {
     solver->yields = system->flows != NULL;
-    for (int32_t k = 0; solver->yields && k < system->linkCount; ++k) {
+    KIRI_TIMES_WHILE(solver->yields, k, system->linkCount) {
         const kiriMaterial* material = kiriSystem_MaterialOf(system, system->links[k].i);
         const kiriBentStrain strain = kiriBentStrain_Of(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
         const kiriBentStrain offset = kiriBentStrain_Of(system->strainOffsets[k].strain);
@@ -542,7 +540,7 @@ static void BeginYields(kiriSolver* solver, const kiriSystem* system)
     if (solver->yields) {
         kiriYields_Share(system->flows, system->links, system->linkCount, solver->regions.data, system->frameCount);
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         solver->yields |= system->clamps[k].keptPlastic != NULL;
     }
 }
@@ -551,8 +549,8 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     KIRI_ASSERT(dt > 0.0 && system->frames == solver->before.data && system->frameCount <= solver->before.capacity);
     KIRI_ASSERT(kiriElement_Count(system) <= solver->stopping.capacity);
-    memset(&solver->search, 0, sizeof(solver->search));
-    memset(&solver->touch, 0, sizeof(solver->touch));
+    KIRI_CLEAR(&solver->search);
+    KIRI_CLEAR(&solver->touch);
     solver->dt = dt;
     solver->elementCount = kiriElement_Count(system);
     solver->isAlong = solver->isHeld = false;
@@ -560,7 +558,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     /* Air damping is applied first, so it only takes energy, whatever gravity does to the velocity. The second-order
        form equals exp(-z) up to the third power of z. */
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         double z = dt * (double)kiriSystem_MaterialOf(system, f)->airDamping;
         double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
         const kiriFrameData* frame = solver->sources.data[f].frame;
@@ -585,7 +583,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         BecomeEuler(solver, system);
     }
     kiriSolver_CenterBody(solver, system);
-    for (int32_t k = 0; k < solver->elementCount; ++k) {
+    KIRI_TIMES(k, solver->elementCount) {
         double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
         kiriElement_Stiffness(system, k, stiffness);
         MeasureElement(system, k, solver->start.data, solver->startStrain.data);
@@ -600,14 +598,14 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
         }
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
         int32_t frame = system->clamps[k].frame;
         const kiriMaterial* material = kiriSystem_MaterialOf(system, frame);
         kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, material, (double)material->flexDamping / dt,
                         &system->frames[frame], &solver->start.data[frame]);
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         if (system->frames[f].held) {
             solver->start.data[f] = solver->predictions.data[f].pose;
         }
@@ -632,11 +630,11 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
     kiriMat3 inertia = kiriPrediction_Inertia(prediction, &pose->A);
     double part = solver->stepping.part;
     double perTime = 1.0 / (part * part), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
-    for (int32_t r = 0; r < solver->size; ++r) {
+    KIRI_TIMES(r, solver->size) {
         const kiriUnknown* a = &solver->unknowns[r];
         bool turns = a->vector == 1 && !kiriMechanics_IsAffine(&system->mechanics);
         kiriVec3 spun = turns ? kiriMat3_Mul(inertia, a->axis) : a->axis;
-        for (int32_t c = 0; c < solver->size; ++c) {
+        KIRI_TIMES(c, solver->size) {
             const kiriUnknown* b = &solver->unknowns[c];
             block[solver->size * r + c] = turns && b->vector == 1  ? perTime * kiriVec3_Dot(b->axis, spun)
                                           : a->number == b->number ? perTime * moments[a->vector][b->vector]
@@ -655,7 +653,7 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
         row.by[1] = kiriVec3_Scale(-1.0, kiriPrediction_TurnGradient(prediction, &pose->A, &prediction->target));
     }
     kiriSolver_Reduce(solver, &row, force);
-    for (int32_t n = 0; n < solver->size; ++n) {
+    KIRI_TIMES(n, solver->size) {
         force[n] *= perTime;
     }
 }
@@ -664,10 +662,10 @@ void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t fr
                            const double* springs, const double* pulls, int rows)
 {
     int32_t size = solver->size;
-    for (int e = 0; e < rows; ++e) {
+    KIRI_TIMES(e, rows) {
         for (int32_t m = 0; m < frameCount; ++m, J += size) {
             double* force = &solver->force.data[size * frames[m]];
-            for (int32_t n = 0; n < size; ++n) {
+            KIRI_TIMES(n, size) {
                 force[n] += pulls[e] * J[n];
             }
         }
@@ -692,12 +690,12 @@ static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k
     kiriTrace_Members(corner, system->links, members, ends);
     memcpy(strain, trace.strain, sizeof(double) * (size_t)traces);
     memset(solver->J.data, 0, sizeof(double) * (size_t)(traces * count * size));
-    for (int32_t n = 0; n < count; ++n) {
-        for (int t = 0; t < traces; ++t) {
+    KIRI_TIMES(n, count) {
+        KIRI_TIMES(t, traces) {
             const double *along = TracedRows(solver, corner->link[n], 2 * t), *across = along + 2 * size;
             for (int end = 0; end < 2; ++end, along += size, across += size) {
                 double* J = &solver->J.data[size * (count * t + ends[n][end])];
-                for (int u = t == KIRI_TRACE_STRETCH ? 0 : 3; u < size; ++u) { /* directors only turn */
+                KIRI_FROM_TO(u, t == KIRI_TRACE_STRETCH ? 0 : 3, size) { /* directors only turn */
                     J[u] += trace.by[n][2 * t] * along[u] + trace.by[n][2 * t + 1] * across[u];
                 }
             }
@@ -723,17 +721,17 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
                            (kiriStrainRow*)J); /* rows are J as it is */
     } else {
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
-        for (int32_t n = 0; n < kiriElement_StrainCount(system, k) * count; ++n) {
+        KIRI_TIMES(n, kiriElement_StrainCount(system, k) * count) {
             kiriSolver_Reduce(solver, &solver->rows.data[n], &J[solver->size * n]);
         }
     }
-    for (int32_t m = 0; solver->isHeld && m < count; ++m) {
-        for (int e = 0; system->frames[solver->members.data[m]].held && e < kiriElement_StrainCount(system, k); ++e) {
+    KIRI_TIMES_WHILE(solver->isHeld, m, count) {
+        KIRI_TIMES_WHILE(system->frames[solver->members.data[m]].held, e, kiriElement_StrainCount(system, k)) {
             memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
     bool isTraced = kiriElement_CornerCount(system) > 0 && kiriElement_IsRigidLink(system, k);
-    for (int s = 0; isTraced && s < (system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED); ++s) {
+    KIRI_TIMES_WHILE(isTraced, s, system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED) {
         memcpy(TracedRows(solver, k, s), &J[2 * solver->size * kiriTrace_Source(s)], 2 * bytes);
     }
 }
@@ -772,7 +770,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     while (rows > always && strain[rows - 1] == 0.0 && !isStopping) {
         --rows;
     }
-    for (int e = 0; e < rows; ++e) {
+    KIRI_TIMES(e, rows) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
     }
@@ -780,7 +778,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
         const kiriYield* yield = &system->flows[k];
         double *J = solver->J.data, *traced[2] = { NULL, NULL };
         int width = 2 * solver->size;
-        for (int s = 0; kiriElement_CornerCount(system) > 0 && s < 2; ++s) {
+        KIRI_TIMES_WHILE(kiriElement_CornerCount(system) > 0, s, 2) {
             traced[s] = TracedRows(solver, k, KIRI_TRACED_BENDING + s);
         }
         kiriYield_TurnRows(yield, width, &J[width * KIRI_BENDING], &J[width * KIRI_TWIST], traced);
@@ -814,7 +812,7 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
     kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &solver->poses.data[row->frame], strain, rows);
     bool flows = kiriClamp_Flow(row, strain, solver->search.mayFlow) > 0.0;
     kiriClamp_TakeOffsets(row, strain, pulling);
-    for (int e = 0; e < row->strainCount; ++e) {
+    KIRI_TIMES(e, row->strainCount) {
         springs[e] = row->stiffness[e] + row->loss[e];
         pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
         kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
@@ -834,8 +832,8 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
 
 static void AddWind(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        for (int k = 0; !system->frames[f].held && k < SAMPLES; ++k) {
+    KIRI_TIMES(f, system->frameCount) {
+        KIRI_TIMES_WHILE(!system->frames[f].held, k, SAMPLES) {
             WindSpring spring = SpringAt(solver, system, f, k);
             kiriVec3 n = spring.normal, x = kiriSystem_Point(system, f, spring.at, solver->poses.data);
             kiriVec3 off = kiriVec3_Sub(x, spring.target);
@@ -857,23 +855,23 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     KIRI_ASSERT(kiriMatrix_FrameCount(solver->matrix) == system->frameCount);
     kiriMatrix_Clear(solver->matrix);
     kiriSolver_LinearizeContacts(solver, system);
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
         if (!system->frames[f].held) {
             AddFrameInertia(solver, system, f);
             continue;
         }
         double identity[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0 }; /* it stays where it is */
-        for (int32_t n = 0; n < solver->size; ++n) {
+        KIRI_TIMES(n, solver->size) {
             identity[(solver->size + 1) * n] = 1.0;
         }
         kiriMatrix_AddOwn(solver->matrix, f, identity);
     }
     kiriStepEnergy sum = InertiaEnergy(solver, system, solver->poses.data);
-    for (int32_t k = 0; k < solver->elementCount; ++k) {
+    KIRI_TIMES(k, solver->elementCount) {
         AddElement(solver, system, k, &sum);
     }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
+    KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
         const kiriVec3 axes[3] = KIRI_AXES;
@@ -882,7 +880,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         }
     }
     kiriStitches_Assemble(solver, system);
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         if (!system->frames[system->clamps[k].frame].held) {
             AddClamp(solver, system, &system->clamps[k]);
         }
@@ -920,8 +918,8 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
     double longest = LONGEST_ITERATION_TURN;
     search->enough = search->now.objective * (1.0 + KIRI_ROUNDING) + search->noise;
     search->promise = 0.0;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        for (int32_t n = solver->size * f; n < solver->size * (f + 1); ++n) {
+    KIRI_TIMES(f, system->frameCount) {
+        KIRI_FROM_TO(n, solver->size * f, solver->size * (f + 1)) {
             search->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
         }
         if (!kiriMechanics_IsAffine(&system->mechanics)) {
@@ -949,7 +947,7 @@ static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
 /* Takes a part of the Gauss-Newton step, unless the objective or the stored energy is too large. */
 static void TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         const kiriPose* pose = &solver->poses.data[f];
         kiriFrameRow change =
             kiriSolver_Expand(solver, solver->search.scale, &solver->move.data[solver->size * f]);
@@ -973,7 +971,7 @@ static void TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
    start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         solver->trial.data[f] = solver->predictions.data[f].pose;
     }
     double rise = MOST_RISE * solver->search.now.objective;
@@ -1000,7 +998,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
         AllowPrediction(solver, system);
         TryNewtonStep(solver, system);
     }
-    for (int halving = 0; !search->isTaken && halving < HALVINGS; ++halving) {
+    KIRI_TIMES_WHILE(!search->isTaken, halving, HALVINGS) {
         search->scale *= 0.5;
         TryNewtonStep(solver, system);
     }
@@ -1051,7 +1049,7 @@ static void BeginFlow(kiriSolver* solver, const kiriSystem* system, int32_t done
 {
     kiriSearch* search = &solver->search;
     bool isFlowing = !search->isTaken || system->clampCount > 0; /* else the strains of links are known */
-    for (int32_t k = 0; !isFlowing && k < system->linkCount; ++k) {
+    KIRI_TIMES_WHILE(!isFlowing, k, system->linkCount) {
         isFlowing = kiriElement_Flow(system, k, &solver->nowStrain.data[KIRI_MOST_STRAINS * k], true) > 0.0;
     }
     search->mayFlow = true;
@@ -1176,7 +1174,7 @@ static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int
 
 static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->pinCount; ++k) {
+    KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
         kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
@@ -1189,7 +1187,7 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
 
 static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         kiriClampRow* row = &system->clamps[k];
         const kiriPose* pose = &solver->poses.data[row->frame];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
@@ -1198,7 +1196,7 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
         kiriClamp_Flow(row, strain, true);
         kiriClamp_TakeOffsets(row, strain, pulling);
-        for (int e = 0; e < row->strainCount; ++e) {
+        KIRI_TIMES(e, row->strainCount) {
             double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
             AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
@@ -1213,7 +1211,7 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
 static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
                                int32_t count, kiriVec3 force)
 {
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, solver->poses.data);
         kiriVec3 part = kiriVec3_Scale(members[m].value, force);
         TakeFromHold(solver, system, members[m].frame, ForceAt(solver, members[m].frame, point, part));
@@ -1226,7 +1224,7 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
     bool isAnyHeld = false;
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         isAnyHeld |= system->frames[solver->members.data[m]].held != 0;
     }
     if (!isAnyHeld) {
@@ -1235,10 +1233,10 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
     kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
     kiriElement_Flow(system, k, strain, true);
     kiriElement_TakeOffsets(system, k, strain, pulling);
-    for (int32_t m = 0; m < count; ++m) {
+    KIRI_TIMES(m, count) {
         int32_t frame = solver->members.data[m];
         kiriWrench wrench = { 0 };
-        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+        KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
             int32_t n = KIRI_MOST_STRAINS * k + e;
             double change = strain[e] - solver->startStrain.data[n];
             double pull = -solver->stiffness.data[n] * pulling[e] - solver->loss.data[n] * change;
@@ -1280,17 +1278,17 @@ static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 
 static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->pinCount; ++k) {
+    KIRI_TIMES(k, system->pinCount) {
         if (solver->pinReactions.data[k] != NULL) {
             EndReaction(&solver->stepping, solver->pinReactions.data[k]);
         }
     }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
+    KIRI_TIMES(k, system->clampCount) {
         if (solver->clampReactions.data[k] != NULL) {
             EndReaction(&solver->stepping, solver->clampReactions.data[k]);
         }
     }
-    for (int32_t f = 0; f < system->frameCount; ++f) {
+    KIRI_TIMES(f, system->frameCount) {
         if (solver->sources.data[f].reaction != NULL && system->frames[f].held) {
             EndReaction(&solver->stepping, solver->sources.data[f].reaction);
             AddMomentum(solver, system, f);
@@ -1306,7 +1304,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
         kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
         TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], force);
-        for (int32_t m = 0; row->bending > 0.0 && m < row->counts[0] + row->counts[1]; ++m) {
+        KIRI_TIMES_WHILE(row->bending > 0.0, m, row->counts[0] + row->counts[1]) {
             kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(row, m, solver->poses.data) };
             TakeFromHold(solver, system, row->members[m].frame, turn);
         }
@@ -1320,7 +1318,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
                 TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
             }
         }
-        for (int32_t k = 0; k < solver->elementCount; ++k) {
+        KIRI_TIMES(k, solver->elementCount) {
             TakeElementFromHolds(solver, system, k);
         }
     }

@@ -22,7 +22,7 @@ static kiriVec3 MemberWay(const kiriStitchRow* row, int32_t member, const kiriPo
 static kiriVec3 PullOf(const kiriStitchRow* row, const kiriPose* poses)
 {
     kiriVec3 apart = { 0.0, 0.0, 0.0 };
-    for (int32_t m = 0; m < CountOf(row); ++m) {
+    KIRI_TIMES(m, CountOf(row)) {
         apart = kiriVec3_AddScaled(apart, row->members[m].value, MemberWay(row, m, poses));
     }
     return kiriVec3_Scale(-row->bending, apart);
@@ -74,7 +74,7 @@ void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system)
         kiriVec3 ways[KIRI_STITCH_MEMBERS];
         AddSprings(solver, system, row, NULL, row->stiffness, kiriStitch_Force(system, row, solver->poses.data));
         if (row->bending > 0.0) {
-            for (int32_t m = 0; m < CountOf(row); ++m) {
+            KIRI_TIMES(m, CountOf(row)) {
                 ways[m] = row->ways[m >= row->counts[0]];
             }
             AddSprings(solver, system, row, ways, row->bending, PullOf(row, solver->poses.data));

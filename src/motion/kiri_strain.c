@@ -1,7 +1,5 @@
 #include "kiri_strain.h"
 
-#include <string.h>
-
 /* The line between the pivots is longer by Y / l, with Y = gap(m) . d (gap(q) . d - 0.4 gap(m) . d): m is the crossing,
    q the middle of the pivots. If m = q, this is 3/5 g^2 / l, as for a clamped strip whose ends are offset by g. Bending
    leaves no gap at m. */
@@ -67,7 +65,7 @@ static void TakeNormal(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose
 {
     kiriVec3 moved[2], lean[2];
     double per = 1.0 / (1.0 + axes->open);
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         lean[k] = kiriVec3_Scale(per, kiriVec3_Add(poses[k]->A.d, axes->d));
         moved[k] = kiriVec3_AddScaled(normals[k], -kiriVec3_Dot(normals[k], axes->d), lean[k]);
     }
@@ -83,7 +81,7 @@ static void TakeNormal(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose
     axes->turnBy = kiriVec3_Scale(1.0 / axes->open, axes->d);
     axes->n = kiriVec3_Normalize(kiriVec3_AddScaled(moved[0], share, moved[1]));
     axes->tau = kiriVec3_Cross(axes->d, axes->n);
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         axes->dBy[k] = kiriVec3_AddScaled(kiriVec3_Scale(0.5, lean[k]), k == 0 ? -byTurn : byTurn, axes->turnBy);
     }
 }
@@ -94,7 +92,7 @@ static MeanAxes MeanAxesOf(const kiriLink* link, const kiriPose* const poses[2],
     MeanAxes axes;
     axes.d = MeanDirectorOf(poses, normals[0], &axes.open);
     TakeNormal(&axes, normals, poses);
-    for (int k = 0; turns && k < 2; ++k) {
+    KIRI_TIMES_WHILE(turns, k, 2) {
         kiriVec3 by = kiriVec3_Scale(0.5 / axes.open, poses[k]->A.d);
         axes.nBy[k] = kiriVec3_Cross(axes.tau, by);
         axes.tauBy[k] = kiriVec3_Cross(by, axes.n);
@@ -128,7 +126,7 @@ static void WriteTurns(const MeanAxes* axes, kiriVec3 axis, const EndVectors* pa
 {
     kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0 };
     double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         kiriVec3 arm = kiriVec3_Cross(axis, pair->ends[k]), turn = k == 0 ? arm : kiriVec3_Scale(-1.0, arm);
         turn = kiriVec3_AddScaled(turn, gn, axes->nBy[k]);
         turn = kiriVec3_AddScaled(turn, gtau, axes->tauBy[k]);
@@ -146,7 +144,7 @@ static void WriteGap(const MeanAxes* axes, kiriVec3 axis, const EndVectors* poin
 
 static void ScaleRow(kiriStrainRow* row, double a)
 {
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         row->end[k].move = kiriVec3_Scale(a, row->end[k].move);
         row->end[k].turn = kiriVec3_Scale(a, row->end[k].turn);
     }
@@ -154,7 +152,7 @@ static void ScaleRow(kiriStrainRow* row, double a)
 
 static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
 {
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         row->end[k].move = kiriVec3_AddScaled(row->end[k].move, a, other->end[k].move);
         row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, other->end[k].turn);
     }
@@ -162,7 +160,7 @@ static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
 
 static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
 {
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, axes->openBy[k]);
     }
 }
@@ -261,7 +259,7 @@ static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, 
     double length = sqrt(normal * normal + lost * lost * aside);
     *strain = length > most ? length - most : 0.0;
     if (row != NULL) {
-        memset(row, 0, sizeof(*row));
+        KIRI_CLEAR(row);
     }
     if (row != NULL && length > (lost > 0.0 ? 0.0 : most)) {
         kiriStrainRow whole;
@@ -338,7 +336,7 @@ static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRo
     double twist = strain[KIRI_TWIST], share = axes->open * axes->open / FADING;
     strain[KIRI_FOLD] = 0.0;
     if (rows != NULL) {
-        memset(&rows[KIRI_FOLD], 0, sizeof(rows[KIRI_FOLD]));
+        KIRI_CLEAR(&rows[KIRI_FOLD]);
     }
     if (!(share < 1.0)) {
         return;
@@ -459,7 +457,7 @@ static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[
     KIRI_ASSERT(link->fold > 0 && link->hinge >= 0.0);
     EndVectors b = PointVectors(frames, poses, link->centroid);
     kiriVec3 axes[2][3];
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         axes[k][0] = kiriPose_Along(poses[k], link->normal);
         axes[k][1] = kiriPose_Along(poses[k], link->tangent);
         axes[k][2] = poses[k]->A.d;
@@ -475,7 +473,7 @@ static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[
     for (int s = KIRI_FOLD; s <= KIRI_NORMAL_STOP; ++s) {
         strain[s] = 0.0;
         if (rows != NULL) {
-            memset(&rows[s], 0, sizeof(rows[s]));
+            KIRI_CLEAR(&rows[s]);
         }
     }
 }
@@ -517,7 +515,7 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     if (rows != NULL) {
         WriteGap(&axes, axes.d, &m, &rows[KIRI_NORMAL_GAP]);
         WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
-        memset(&rows[KIRI_PLANE_BENDING], 0, sizeof(rows[KIRI_PLANE_BENDING]));
+        KIRI_CLEAR(&rows[KIRI_PLANE_BENDING]);
         double byTurn = 0.5 * turned * axes.sine - axes.cosine;
         rows[KIRI_PLANE_BENDING].end[0].turn = kiriVec3_Scale(-byTurn, axes.turnBy);
         rows[KIRI_PLANE_BENDING].end[1].turn = kiriVec3_Scale(byTurn, axes.turnBy);
@@ -561,7 +559,7 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS])
 void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling)
 {
     KIRI_ASSERT(count > 0 && count <= (isAffine ? (int)KIRI_AFFINE_STRAINS : (int)KIRI_STRAINS));
-    for (int e = 0; e < count; ++e) {
+    KIRI_TIMES(e, count) {
         pulling[e] = strain[e] - (e == KIRI_PLANE_BENDING ? 0.0 : offset[e]);
     }
     for (int e = KIRI_FOLD; !isAffine && e < count; ++e) { /* folds and stops only push */
@@ -625,7 +623,7 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
 {
     kiriTrace trace;
     trace.strain[KIRI_TRACE_STRETCH] = trace.strain[KIRI_TRACE_CURVATURE] = 0.0;
-    for (int k = 0; k < corner->count; ++k) {
+    KIRI_TIMES(k, corner->count) {
         const kiriLink* link = &links[corner->link[k]];
         double alongNormal = kiriVec2_Dot(corner->weight[k], link->normal);
         double alongTangent = kiriVec2_Dot(corner->weight[k], link->tangent);
@@ -675,12 +673,12 @@ void kiriTrace_Members(const kiriCorner* corner, const kiriLink* links, int32_t 
 {
     int32_t count = 0;
     KIRI_ASSERT(corner->count == 3 || corner->count == 4);
-    for (int k = 0; k < corner->count; ++k) {
+    KIRI_TIMES(k, corner->count) {
         count = AddMember(members, count, links[corner->link[k]].i);
         count = AddMember(members, count, links[corner->link[k]].j);
     }
     KIRI_ASSERT(count == corner->count);
-    for (int k = 0; k < corner->count; ++k) {
+    KIRI_TIMES(k, corner->count) {
         ends[k][0] = PlaceOf(members, count, links[corner->link[k]].i);
         ends[k][1] = PlaceOf(members, count, links[corner->link[k]].j);
     }
@@ -716,7 +714,7 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 {
     KIRI_ASSERT(frameCount <= strainOffsets->frames.capacity && frameCount <= strainOffsets->mayMove.capacity);
     strainOffsets->frames.count = strainOffsets->mayMove.count = frameCount;
-    for (int32_t f = 0; f < frameCount; ++f) {
+    KIRI_TIMES(f, frameCount) {
         strainOffsets->mayMove.data[f] = mayMove[f];
         if (mayMove[f]) {
             strainOffsets->frames.data[f] = frames[f];
@@ -740,7 +738,7 @@ void kiriStrainOffset_Keep(const double* strain, const double* turned, const dou
                            double* offset)
 {
     double cosine = strain[KIRI_PLANE_BENDING] - turned[KIRI_PLANE_BENDING];
-    for (int e = 0; e < KIRI_STRAINS; ++e) {
+    KIRI_TIMES(e, KIRI_STRAINS) {
         offset[e] = strain[e] - was[e] + (e == KIRI_PLANE_BENDING ? 0.0 : older[e]);
     }
     offset[KIRI_PLANE_BENDING] = kiriClamp(offset[KIRI_PLANE_BENDING] / kiriMax(cosine, LEAST_COSINE), -1.0, 1.0);
@@ -782,7 +780,7 @@ static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int
                       int32_t linkCount, const int32_t* was)
 {
     int32_t o = 0;
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         bool known = was != NULL && was[k] == o;
         if (!known) {
             while (o < oldCount && kiriLink_IsBefore(&old[o], &links[k])) {
@@ -798,7 +796,7 @@ static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int
 /* Stores the offsets of links whose index changes. Most links keep their index. */
 static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
 {
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         int32_t from = strainOffsets->from.data[k];
         if (from != k && from != KIRI_NONE && from < strainOffsets->strainOffsets.count) {
             strainOffsets->older.data[from] = strainOffsets->strainOffsets.data[from];
@@ -816,7 +814,7 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plas
     kiriStrainOffset* offsets = strainOffsets->strainOffsets.data;
     FindOlder(strainOffsets, old, oldCount, links, linkCount, was);
     SaveOlder(strainOffsets, linkCount);
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         int32_t from = strainOffsets->from.data[k];
         const kiriStrainOffset* older = from == KIRI_NONE || from >= had ? &none
                                         : from == k                      ? &offsets[k]
@@ -844,7 +842,7 @@ void kiriStrainOffset_Fade(double* offset, const kiriPlastic* plastic, int count
         offset[KIRI_TWIST] -= plastic->part.twist;
         offset[KIRI_FOLD] -= plastic->part.fold;
     }
-    for (int e = 0; e < count; ++e) {
+    KIRI_TIMES(e, count) {
         offset[e] = fabs(offset[e]) > 1e-12 ? keep * offset[e] : 0.0;
     }
     if (plastic != NULL) {
@@ -858,7 +856,7 @@ void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlast
                                double dt, double time)
 {
     double keep = time / (time + dt);
-    for (int32_t n = 0; strainOffsets->strainOffsets.count > 0 && n < links->count; ++n) {
+    KIRI_TIMES_WHILE(strainOffsets->strainOffsets.count > 0, n, links->count) {
         int32_t k = links->data[n];
         KIRI_ASSERT(k < strainOffsets->strainOffsets.count);
         kiriStrainOffset_Fade(strainOffsets->strainOffsets.data[k].strain,
@@ -980,7 +978,7 @@ static FrameDifference GapAt(const kiriFrameData* const frames[2], const kiriPos
 static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec3 byValue, kiriVec3 byMean,
                      kiriFrameRow row[2])
 {
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         kiriVec3 by = kiriVec3_Scale(k == 0 ? -1.0 : 1.0, byValue);
         row[k].by[0] = kiriVec3_Scale(g->move, by);
         row[k].by[1] = kiriVec3_Scale(g->at[k].x, by);
@@ -994,7 +992,7 @@ static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, d
 {
     const kiriVec3 axes[3] = KIRI_AXES;
     double along = kiriVec3_Dot(g->value, mean->d);
-    for (int a = 0; a < 3; ++a) {
+    KIRI_TIMES(a, 3) {
         double lean = kiriVec3_Dot(axes[a], mean->d);
         strain[a] = kiriVec3_Dot(axes[a], g->value) - along * lean;
         if (rows != NULL) {
@@ -1010,7 +1008,7 @@ static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2],
     const kiriVec3 axes[3] = KIRI_AXES, zero = { 0 };
     kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
     double slope, factor = kiriCurl_Factor(curl, kiriVec3_Dot(bent, bent), &slope);
-    for (int a = 0; a < 3; ++a) {
+    KIRI_TIMES(a, 3) {
         double part = kiriVec3_Dot(axes[a], bent);
         strain[a] = factor * part;
         if (rows != NULL) {
@@ -1028,7 +1026,7 @@ void kiriAffine_AddTrace(kiriVec2 p, const kiriPose* const poses[2], double* str
     kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
     kiriVec3 along = kiriVec3_Add(kiriPose_Along(poses[0], p), kiriPose_Along(poses[1], p));
     *strain += 0.5 * kiriVec3_Dot(bent, along);
-    for (int k = 0; rows != NULL && k < 2; ++k) {
+    KIRI_TIMES_WHILE(rows != NULL, k, 2) {
         kiriVec3* by = rows[k]->by;
         by[1] = kiriVec3_AddScaled(by[1], 0.5 * p.x, bent);
         by[2] = kiriVec3_AddScaled(by[2], 0.5 * p.y, bent);
@@ -1082,7 +1080,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
-    for (int a = 0; a < 3; ++a) {
+    KIRI_TIMES(a, 3) {
         stiffness[KIRI_AFFINE_GAP + a] = GAP_SHARE * membrane * link->width;
         stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
         stiffness[KIRI_AFFINE_BENDING + a] = bending * (1.0 - nu) * (link->width + nu * link->outer);
@@ -1128,7 +1126,7 @@ typedef struct RegionLinks {
 static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, kiriAreaElement* element,
                       const kiriLink* link)
 {
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         int32_t frame = end == 0 ? link->i : link->j;
         kiriFrameShare* share = FrameShareOf(elements, regions->memory, element, frame);
         if (share == NULL) {
@@ -1174,11 +1172,11 @@ static bool CollectLinksByRegion(RegionLinks* regions, const kiriLink* links, in
     for (int32_t i = 0; i <= frameCount; ++i) {
         start[i] = 0;
     }
-    for (int32_t k = 0; k < linkCount; ++k) {
+    KIRI_TIMES(k, linkCount) {
         ++start[links[k].i];
         ++start[links[k].j];
     }
-    for (int32_t i = 0; i < frameCount; ++i) {
+    KIRI_TIMES(i, frameCount) {
         start[i + 1] += start[i];
     }
     for (int32_t k = linkCount - 1; k >= 0; --k) {
@@ -1194,7 +1192,7 @@ bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiri
     RegionLinks regions = { memory, material, { 0 }, { 0 } };
     elements->elements.count = elements->shares.count = 0;
     bool ok = CollectLinksByRegion(&regions, links, linkCount, frameCount);
-    for (int32_t i = 0; ok && i < frameCount; ++i) {
+    KIRI_TIMES_WHILE(ok, i, frameCount) {
         const kiriAreaElement membrane = { 0.0, LEAN_PENALTY, 0, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1 };
         const kiriAreaElement director = { 0.0, 0.0, 0, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
         ok = AddRegionElement(elements, &regions, i, membrane, true) &&
@@ -1212,7 +1210,7 @@ void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 si
     double away = kiriVec2_Dot(off, left);
     row->foot = kiriVec2_AddScaled(shape->from, kiriVec2_Dot(off, shape->along), shape->along);
     row->isAffine = shape->isAffine;
-    memset(link, 0, sizeof(*link));
+    KIRI_CLEAR(link);
     link->i = KIRI_NONE;
     link->j = row->frame;
     link->width = shape->width;
@@ -1232,7 +1230,7 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
                        double* strain, kiriFrameRow* rows)
 {
     kiriFrameData held; /* the line: strains of a link read no more of a held frame */
-    memset(&held, 0, sizeof(held));
+    KIRI_CLEAR(&held);
     held.site.at = held.center = row->foot;
     held.held = 1;
     const kiriFrameData* const frames[2] = { &held, frame };
@@ -1240,15 +1238,15 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
     if (row->isAffine) {
         kiriFrameRow both[KIRI_AFFINE_STRAINS][2];
         kiriAffine_Measure(&row->link, row->material, frames, poses, strain, rows != NULL ? both : NULL);
-        for (int e = 0; rows != NULL && e < KIRI_AFFINE_STRAINS; ++e) {
+        KIRI_TIMES_WHILE(rows != NULL, e, KIRI_AFFINE_STRAINS) {
             rows[e] = both[e][1];
         }
     } else {
         kiriStrainRow both[KIRI_STRAINS];
         kiriStrain_Measure(&row->link, row->material, frames, poses, row->offset[KIRI_PLANE_BENDING], strain,
                            rows != NULL ? both : NULL);
-        for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
-            memset(&rows[e], 0, sizeof(rows[e]));
+        KIRI_TIMES_WHILE(rows != NULL, e, KIRI_STRAINS) {
+            KIRI_CLEAR(&rows[e]);
             rows[e].by[0] = both[e].end[1].move;
             rows[e].by[1] = both[e].end[1].turn;
         }
@@ -1276,7 +1274,7 @@ static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
     double W = row->link.width, membrane = (double)material->youngsModulus * h / l;
     double bending = membrane * h * h / (12.0 * (1.0 - nu * nu)), twisted = (1.0 - nu) * (W + row->outer) - W;
     kiriAffine_Stiffness(&row->link, material, row->stiffness);
-    for (int a = 0; a < 3; ++a) {
+    KIRI_TIMES(a, 3) {
         row->stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane * W;
         row->stiffness[KIRI_AFFINE_BENDING + a] = bending * W;
     }
@@ -1292,7 +1290,7 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
     row->isAffine ? SetAffineStiffness(row, material) : SetRigidStiffness(row, material);
     kiriClamp_Measure(row, frame, &row->start, start, row->startStrain, NULL);
     double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
-    for (int e = 0; e < row->strainCount; ++e) {
+    KIRI_TIMES(e, row->strainCount) {
         row->loss[e] = share * row->stiffness[e];
     }
     if (row->keptPlastic != NULL) {
@@ -1318,7 +1316,7 @@ bool kiriClamp_IsStopped(const kiriClampRow* row, const double* strain)
 double kiriClamp_Noise(const kiriClampRow* row, const kiriPose* start)
 {
     double reach = kiriVec3_Length(start->x) + row->link.length, sum = 0.0;
-    for (int e = 0; e < row->strainCount; ++e) {
+    KIRI_TIMES(e, row->strainCount) {
         bool isAngle = row->isAffine ? e >= KIRI_AFFINE_PLANE_BENDING && e < KIRI_AFFINE_NORMAL_GAP
                                      : e >= KIRI_PLANE_BENDING && e <= KIRI_TWIST;
         bool isStop = e == (row->isAffine ? (int)KIRI_AFFINE_NORMAL_STOP : (int)KIRI_NORMAL_STOP);

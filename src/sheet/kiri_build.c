@@ -3,7 +3,6 @@
 #include "kiri_seen.h"
 #include "kiri_sheet_site.h"
 
-#include <string.h>
 #include <math.h>
 
 /* Smallest contact thickness, as a fraction of a grid square. Less would need a finer contact search. */
@@ -83,10 +82,10 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     KIRI_EACH_INDEX(i, sheet->frames) {
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->mass = is * frame->area;
-        for (int k = 0; k < 3; ++k) {
+        KIRI_TIMES(k, 3) {
             frame->inertia[k] *= is / was;
         }
-        memset(&frame->history, 0, sizeof(frame->history));
+        KIRI_CLEAR(&frame->history);
         sheet->regions.dirty.data[i] = 1;
     }
     kiriLinks_BeginAgain(&sheet->links);
@@ -150,7 +149,7 @@ static double SpacingFor(const kiriSheetDef* def, double longer)
 {
     const kiriMaterial* m = &def->material;
     double cube = kiriStrain_PlateStiffness(m) / (m->density * (double)m->thickness * 9.81), root = kiriMax(cube, 1.0);
-    for (int i = 0; i < 200; ++i) { /* Newton's iteration from above */
+    KIRI_TIMES(i, 200) { /* Newton's iteration from above */
         root = (2.0 * root + cube / (root * root)) / 3.0;
     }
     return sqrt((double)def->accuracy) * (def->planar ? longer : kiriMin(2.0 * root, longer));
@@ -237,7 +236,7 @@ static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def,
     KIRI_EACH(int32_t, own, placing->own) {
         *own = KIRI_NONE;
     }
-    for (int32_t i = 0; i < def->frameCount; ++i) {
+    KIRI_TIMES(i, def->frameCount) {
         if (!TakeFramePoint(sheet, def, i, placing->own.data, fault)) {
             return KIRI_ERROR_ARGUMENT;
         }
@@ -249,7 +248,7 @@ static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t inde
 {
     kiriSite site = sheet->update->placing.sites.data[index];
     kiriFrameData* frame = &sheet->frames.data[index];
-    memset(frame, 0, sizeof(*frame));
+    KIRI_CLEAR(frame);
     frame->anchor = def->framePoints != NULL && index < def->frameCount ? kiriMesh_Snap(&sheet->mesh, site.at)
                                                                         : sheet->update->newFrames.data[index].anchor;
     frame->center = site.at;
@@ -371,7 +370,7 @@ static kiriResult AddFolds(kiriSheetData* sheet, const kiriFold* folds, int32_t 
 {
     kiriMeshData* mesh = &sheet->mesh;
     kiriResult result = KIRI_OK;
-    for (int32_t i = 0; result == KIRI_OK && i < count; ++i) {
+    KIRI_TIMES_WHILE(result == KIRI_OK, i, count) {
         result = kiriFolds_Add(sheet, &folds[i], fault);
         if (result == KIRI_OK) {
             const kiriFoldLine* line = &mesh->folds.data[i];

@@ -7,8 +7,6 @@
 #include "kiri_pin.h"
 #include "kiri_seen.h"
 
-#include <string.h>
-
 /* ---- Maps and lists ---------------------------------------------------------------------------------------------- */
 
 static bool InitSubset(kiriSubset* subset, const kiriSheetData* from, kiriMemory* memory)
@@ -23,7 +21,7 @@ static bool InitSubset(kiriSubset* subset, const kiriSheetData* from, kiriMemory
 
 bool kiriDetach_Init(kiriDetach* detach, kiriSheetData* sheet)
 {
-    memset(detach, 0, sizeof(*detach));
+    KIRI_CLEAR(detach);
     detach->sheet = sheet;
     detach->memory = kiriMemory_Like(sheet->memory);
     return InitSubset(&detach->rest, sheet, &detach->memory);
@@ -150,7 +148,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
     KIRI_EACH_INDEX_WHILE(ok, v, sheet->mesh.vertices) {
         detach->vertexPart.data[v] = PartOfPiece(detach, kiriPiece_OfVertex(sheet, v));
     }
-    for (int32_t k = 0; ok && k < KIRI_LISTED_COUNT; ++k) {
+    KIRI_TIMES_WHILE(ok, k, KIRI_LISTED_COUNT) {
         int32_t count = kinds[k].count;
         kiriKeep *mapOfRest = kinds[k].rest, *mapOfPart = makesParts ? kinds[k].part : NULL;
         if (mapOfRest == NULL && !makesParts) {
@@ -160,7 +158,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
         ok = kiriArray_Resize(memory, &parts, count) &&
              (mapOfRest == NULL || kiriKeep_Init(mapOfRest, memory, count)) &&
              (mapOfPart == NULL || kiriKeep_Init(mapOfPart, memory, count));
-        for (int32_t i = 0; ok && i < count; ++i) {
+        KIRI_TIMES_WHILE(ok, i, count) {
             parts.data[i] = PartOf(detach, k, i);
             if (mapOfRest != NULL) {
                 kiriKeep_Add(mapOfRest, parts.data[i] == KIRI_NONE);
@@ -508,7 +506,7 @@ static bool ListForces(kiriDetach* detach)
     if (!kiriArray_Resize(&detach->memory, &detach->forces, (int64_t)last + slept)) {
         return false;
     }
-    for (int32_t i = 0; i < last + slept; ++i) {
+    KIRI_TIMES(i, last + slept) {
         const kiriTouch* touch = i < last ? &touches->last.touches.data[i] : &touches->slept.touches.data[i - last];
         detach->forces.data[i] = kiriTouches_ForceOf(detach->sheet, touch->key);
     }
@@ -568,7 +566,7 @@ static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriV
     int32_t count = memory->touches.count;
     KIRI_ASSERT(forces + count <= detach->forces.data + detach->forces.count);
     memory->touches.count = memory->forces.count = memory->given = 0;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriTouch touch = memory->touches.data[i];
         if (FollowTouch(&detach->rest, &touch)) {
             kiriTouchMemory_Add(memory, &touch, forces[i]);
@@ -611,8 +609,8 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
     kiriKeep_Compact(&rest->points, &seen->exactPoints, 1, sizeof(kiriVec3));
     kiriShown_Take(&rest->points, &seen->pointPositions, &detach->points, 3, retired);
     seen->pointCount = rest->points.count;
-    memset(&detach->shown, 0, sizeof(detach->shown));
-    memset(&detach->points, 0, sizeof(detach->points));
+    KIRI_CLEAR(&detach->shown);
+    KIRI_CLEAR(&detach->points);
     kiriPieceLists_Retire(&sheet->lists, retired);
     sheet->probes.isFresh = sheet->tears.areListed = false;
 }
@@ -712,7 +710,7 @@ static bool Commit(kiriSheetData* sheet)
 bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
 {
     kiriArrayHeader dirty = kiriArray_GetHeader(&sheet->regions.dirty);
-    memset(&sheet->regions.dirty, 0, sizeof(sheet->regions.dirty));
+    KIRI_CLEAR(&sheet->regions.dirty);
     *isBad = false;
     bool ok = RunStages(sheet, isBad) && Commit(sheet);
     if (ok) {

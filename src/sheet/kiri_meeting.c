@@ -2,8 +2,6 @@
 #include "kiri_piece.h"
 #include "kiri_seen.h"
 
-#include <string.h>
-
 /* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
    pushed. So a flat surface keeps its vertices. */
 #define PREFERRED 0.5
@@ -43,7 +41,7 @@ static bool MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, 
     const kiriMechanics* mechanics = &meeting->sheet->settings.mechanics;
     const kiriObstacleData* obstacle = meeting->obstacle;
     kiriVec3 slip = kiriVec3_Across(obstacle->surface, normal);
-    memset(touch, 0, sizeof(*touch));
+    KIRI_CLEAR(touch);
     touch->velocity = kiriVec3_Add(kiriObstacle_VelocityAt(obstacle, at), slip);
     touch->offset = kiriVec3_Dot(normal, at) + gap;
     if (mechanics->planar) {
@@ -78,7 +76,7 @@ static kiriVec3 WayOf(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 veloc
 
 static void SetPlace(kiriTouch* touch, const int32_t* vertices, const double* shares, int32_t count)
 {
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         touch->vertex[k] = k < count ? vertices[k] : KIRI_NONE;
         touch->share[k] = k < count ? shares[k] : 0.0;
     }
@@ -90,7 +88,7 @@ static bool TouchMixed(const kiriMeeting* meeting, const int32_t* v, const doubl
                        kiriVec3 normal, double above, double most, kiriVec3 on, double gap, kiriTouch* touch)
 {
     kiriVec3 velocity = { 0 };
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriProbe_Velocity(meeting->sheet, v[k]));
     }
     if (above + kiriVec3_Dot(normal, WayOf(meeting, at, velocity)) > most ||
@@ -334,7 +332,7 @@ static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
 {
     enum { TURNS = 24 };
     kiriVec3 onAxis = { 0 };
-    for (int turn = 0; turn < TURNS; ++turn) {
+    KIRI_TIMES(turn, TURNS) {
         NearestOfTriangle(x, onAxis, share);
         double z = BlendOfThree(x, share).z;
         onAxis.z = kiriClamp(z, -half, half);
@@ -458,7 +456,7 @@ static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* h
 /* Returns true if the normal can be of a tangent plane at the edge: it opposes none of the faces. */
 static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
 {
-    for (int32_t k = 0; k < point->faceCount; ++k) {
+    KIRI_TIMES(k, point->faceCount) {
         if (kiriVec3_Dot(normal, point->faces[k]) < -0.2) {
             return false;
         }
@@ -498,7 +496,7 @@ static bool MeetsLine(const void* context, const kiriBox* box)
     const double lower[3] = { box->lower.x, box->lower.y, box->lower.z };
     const double upper[3] = { box->upper.x, box->upper.y, box->upper.z };
     double from = -point->below, to = point->above;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         double low = lower[k] - at[k] - LINE_SLACK, high = upper[k] - at[k] + LINE_SLACK;
         if (fabs(out[k]) < 1e-12) {
             to = low > 0.0 || high < 0.0 ? from - 1.0 : to;
@@ -563,7 +561,7 @@ static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVe
     EdgePoint point;
     point.at = kiriObstacle_PointToWorld(obstacle, at);
     point.faceCount = faceCount;
-    for (int32_t k = 0; k < faceCount; ++k) {
+    KIRI_TIMES(k, faceCount) {
         point.faces[k] = kiriObstacle_ToWorld(obstacle, faces[k]);
         sum = kiriVec3_Add(sum, point.faces[k]);
     }
@@ -581,7 +579,7 @@ static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, i
         count *= 2;
     }
     bool ok = true;
-    for (int32_t i = 0; ok && i < count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, count) {
         kiriVec2 circle = kiriCircle_At(i, count);
         kiriVec3 faces[2] = { edge->faces[0], { circle.x, circle.y, 0.0 } };
         EdgePoint point =
@@ -600,7 +598,7 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
                  upper[3] = { box.upper.x, box.upper.y, box.upper.z };
     const double a[3] = { from.x, from.y, from.z }, d[3] = { step.x, step.y, step.z };
     double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->square;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         double enter = lower[k] - margin - a[k], leave = upper[k] + margin - a[k];
         if (fabs(d[k]) * (end - start + 1.0) < 1e-9) {
             end = enter > 0.0 || leave < 0.0 ? start - 1.0 : end;
@@ -646,7 +644,7 @@ static bool TouchTips(const kiriMeeting* meeting)
     const uint32_t tips = UINT32_C(1) << 28; /* first item number of corners, above all points of edges */
     int32_t count = shape->type == KIRI_OBSTACLE_PRISM && shape->half < KIRI_ENDLESS ? 2 * shape->count : 0;
     bool ok = true;
-    for (int32_t i = 0; ok && i < count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, count) {
         kiriObstacleEdge edge;
         if (kiriObstacleShape_EdgeAt(shape, i % shape->count, &edge)) {
             bool isLow = i < shape->count;
@@ -663,7 +661,7 @@ static bool TouchEdges(const kiriMeeting* meeting)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
     bool ok = TouchTips(meeting);
-    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+    KIRI_TIMES_WHILE(ok, i, kiriObstacleShape_EdgeCount(shape)) {
         kiriObstacleEdge edge;
         if (kiriObstacleShape_EdgeAt(shape, i, &edge)) {
             ok = edge.radius > 0.0 ? TouchRim(meeting, &edge, i) : TouchStraight(meeting, &edge, i);
@@ -688,7 +686,7 @@ static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, in
     *point = MakePoint(meeting, edge->from, edge->faces, 2, edge->thinnest);
     point->item = (uint32_t)index;
     point->at = kiriVec3_AddScaled(from, below / rise, way);
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         kiriVec3 face = point->faces[k];
         point->faces[k] = kiriVec3_Normalize(kiriVec3_Across(face, d));
     }
@@ -761,7 +759,7 @@ static bool TouchCorners(const kiriMeeting* meeting)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
     bool ok = true;
-    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+    KIRI_TIMES_WHILE(ok, i, kiriObstacleShape_EdgeCount(shape)) {
         kiriObstacleEdge edge;
         EdgePoint point;
         if (kiriObstacleShape_EdgeAt(shape, i, &edge) && CutEdge(meeting, &edge, i, &point)) {
@@ -817,10 +815,10 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
         (oldHeads < patches && !kiriArray_Resize(search->memory, &search->heads, patches))) {
         return false;
     }
-    for (int32_t i = oldMarks; i < search->marks.count; ++i) {
+    KIRI_FROM_TO(i, oldMarks, search->marks.count) {
         search->marks.data[i] = 0;
     }
-    for (int32_t i = oldHeads; i < search->heads.count; ++i) {
+    KIRI_FROM_TO(i, oldHeads, search->heads.count) {
         search->heads.data[i] = KIRI_NONE;
     }
     return true;
@@ -969,7 +967,7 @@ static void FlattenDetail(kiriSheetData* sheet)
         if (item->vertex < marks->count && (marks->data[item->vertex] & KIRI_FOLD_FLAT) != 0) {
             float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
             const float* skin = kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex;
-            for (int k = 0; k < 3; ++k) {
+            KIRI_TIMES(k, 3) {
                 moving[k] = skin[k] + LEFT_IN_FOLDS * (moving[k] - skin[k]);
             }
         }
@@ -982,7 +980,7 @@ void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count,
         FlattenDetail(sheet);
     }
     kiriBox box = count > 0 ? BoxOfDetail(&sheet->seen.surface) : (kiriBox){ 0 };
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         if ((obstacles[i]->groups & sheet->settings.groups) != 0 &&
             kiriObstacle_IsNear(obstacles[i], box.lower, box.upper, sheet->settings.contactThickness)) {
             PushDetail(obstacles[i], sheet);

@@ -138,7 +138,7 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
     }
     int32_t turn = sheet->turns.next < sheet->frames.count ? sheet->layout.framePiece.data[sheet->turns.next] : 0;
     KIRI_SEARCH(first, 0, count, moved->data[middle] < turn);
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         int32_t body = moved->data[(first + n) % count];
         int64_t work = kiriMotion_WorkOf(sheet, body);
         if (sheet->turns.waiting > 0 || (taken > 0 && kiriSolver_ItemsOf(taken + work) > systems->left)) {

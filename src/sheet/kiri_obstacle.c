@@ -424,7 +424,7 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
         bool isPrism = shape->type == KIRI_OBSTACLE_PRISM;
         bool isFine =
             shape->type != KIRI_OBSTACLE_BOX && (isPrism ? corners >= 3 : corners == 0) && (*made)->mass >= 0.0;
-        for (int32_t k = 0; k < 2 * corners; ++k) { /* normals follow the outline */
+        KIRI_TIMES(k, 2 * corners) { /* normals follow the outline */
             isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
         }
         kiriArchive_Expect(archive, archive->isWhole || isFine);

@@ -1,8 +1,6 @@
 #include "kiri_piece.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 /* ---- Pieces of the next layout ----------------------------------------------------------------------------------- */
 
 /* Joins frames that links connect. */
@@ -281,7 +279,7 @@ static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
     const kiriLinks* links = &work->sheet->links;
     const kiriLink* list = work->isStaged ? links->next.data : links->links.data;
     int32_t count = work->isStaged ? links->next.count : links->links.count, i = kiriMin(a, b), j = kiriMax(b, a);
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         if (list[k].i == i && list[k].j == j) {
             return true;
         }
@@ -360,13 +358,13 @@ bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t piece
     kiriSpan* spans = list->spans.data;
     int32_t listed = 0;
     memset(spans, 0, sizeof(kiriSpan) * (size_t)pieceCount);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         KIRI_ASSERT(pieces[i] >= KIRI_NONE && pieces[i] < pieceCount);
         if (pieces[i] != KIRI_NONE) {
             spans[pieces[i]].count += 1;
         }
     }
-    for (int32_t p = 0; p < pieceCount; ++p) {
+    KIRI_TIMES(p, pieceCount) {
         spans[p].first = listed;
         listed += spans[p].count;
         spans[p].count = 0;
@@ -374,7 +372,7 @@ bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t piece
     if (!kiriArray_Resize(memory, &list->items, listed)) {
         return false;
     }
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         if (pieces[i] != KIRI_NONE) {
             kiriSpan* span = &spans[pieces[i]];
             list->items.data[span->first + span->count++] = i;
@@ -424,10 +422,10 @@ static bool ListMesh(kiriSheetData* sheet, int32_t* pieces)
     const int32_t* indices = sheet->seen.surface.indices.data;
     int32_t vertices = sheet->mesh.vertices.count, triangles = sheet->mesh.triangles.count;
     int32_t* trianglePieces = pieces + vertices;
-    for (int32_t v = 0; v < vertices; ++v) {
+    KIRI_TIMES(v, vertices) {
         pieces[v] = kiriPiece_OfVertex(sheet, v);
     }
-    for (int32_t t = 0; t < triangles; ++t) {
+    KIRI_TIMES(t, triangles) {
         int32_t piece = pieces[indices[3 * (size_t)t]];
         trianglePieces[t] = layout->pieces.data[piece].isGone ? KIRI_NONE : piece;
     }
@@ -463,13 +461,13 @@ kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece)
 void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired)
 {
     kiriPieceItems* all[] = { &lists->frames, &lists->vertices, &lists->triangles, &lists->points };
-    for (int i = 0; i < 4; ++i) {
+    KIRI_TIMES(i, 4) {
         kiriMemory_Adopt(retired, all[i]->spans.data);
         kiriMemory_Adopt(retired, all[i]->items.data);
     }
     kiriMemory_Adopt(retired, lists->ids.data);
     kiriMemory_Adopt(retired, lists->corners.data);
-    memset(lists, 0, sizeof(*lists));
+    KIRI_CLEAR(lists);
 }
 
 /* ---- State ------------------------------------------------------------------------------------------------------- */
@@ -485,9 +483,9 @@ static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], flo
     float least[3], most[3];
     memcpy(least, positions + 3 * (size_t)vertices[0], sizeof(least));
     memcpy(most, least, sizeof(most));
-    for (int32_t i = 1; i < span.count; ++i) {
+    KIRI_FROM_TO(i, 1, span.count) {
         const float* x = positions + 3 * (size_t)vertices[i];
-        for (int k = 0; k < 3; ++k) {
+        KIRI_TIMES(k, 3) {
             least[k] = kiriMin(x[k], least[k]);
             most[k] = kiriMax(x[k], most[k]);
         }

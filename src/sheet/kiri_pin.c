@@ -4,8 +4,6 @@
 #include "../motion/kiri_solver.h"
 #include "../motion/kiri_frame.h"
 
-#include <string.h>
-
 /* ---- Geometry of lines ------------------------------------------------------------------------------------------- */
 
 /* A line in the rest plane, m, local. */
@@ -150,7 +148,7 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
 
 static void ForgetHistory(kiriFrameData* frame)
 {
-    memset(&frame->history, 0, sizeof(frame->history));
+    KIRI_CLEAR(&frame->history);
 }
 
 void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
@@ -174,7 +172,7 @@ static void RemoveOfPin(void* array, size_t itemBytes, int32_t index, int32_t la
     int32_t count = header.count, pin, before;
     KIRI_ASSERT(itemBytes <= sizeof(item));
     header.count = 0;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         memcpy(item, items + k * itemBytes, itemBytes);
         memcpy(&pin, item, sizeof(pin));
         if (pin != index) {
@@ -266,7 +264,7 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     kiriMat3 rotation = RotationAfter(pin, to);
     kiriVec2 arm = kiriVec2_Scale(sqrt(shape.moment / shape.width), line.along);
     const kiriVec2 at[2] = { kiriVec2_Sub(shape.centroid, arm), kiriVec2_Add(shape.centroid, arm) };
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         kiriVec3 target = HeldPoint(&line, TargetAfter(pin, to), &rotation, at[k]);
         kiriPinRow spring = { pinned->share.frame, at[k], target, 0.5 * stiffness };
         KIRI_NEXT(sheet->pinRows) = spring;
@@ -445,7 +443,7 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
                          older->offset[KIRI_PLANE_BENDING], was);
         }
         kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
-        memset(&pinned->plastic, 0, sizeof(pinned->plastic));
+        KIRI_CLEAR(&pinned->plastic);
         older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
         if (older != NULL && sheet->plastics.isKept) {
             double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
@@ -479,7 +477,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
             kiriPose pose = kiriPose_Of(frame);
             kiriClamp_Begin(&row, sheet->settings.mechanics.planar, &sheet->settings.material, 0.0, frame, &pose);
             kiriClamp_TakeOffsets(&row, row.startStrain, pulling);
-            for (int e = 0; e < row.strainCount; ++e) {
+            KIRI_TIMES(e, row.strainCount) {
                 sum += 0.5 * row.stiffness[e] * pulling[e] * pulling[e];
             }
         }
@@ -517,7 +515,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
         kiriPinData* pin = &sheet->pins.data[i];
         if (IsAwakePoint(sheet, i)) {
             KIRI_ASSERT(row < sheet->pinReactions.count);
-            memset(&pin->bore, 0, sizeof(pin->bore));
+            KIRI_CLEAR(&pin->bore);
             pin->reaction = sheet->pinReactions.data[row++];
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
         }
@@ -527,7 +525,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
         if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
             continue;
         }
-        memset(&pinned->bore, 0, sizeof(pinned->bore));
+        KIRI_CLEAR(&pinned->bore);
         if (pin->type == KIRI_PIN_CLAMP) {
             KIRI_ASSERT(clamp < sheet->clampRows.count && clamp < sheet->clampReactions.count);
             kiriVec3 at = sheet->clampRows.data[clamp].pose.x;
@@ -535,7 +533,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
             AddBorne(pin, &pinned->reactions[0], at, perTime, &pinned->bore);
             continue;
         }
-        for (int spring = 0; spring < 2; ++spring) {
+        KIRI_TIMES(spring, 2) {
             KIRI_ASSERT(row < sheet->pinRows.count && row < sheet->pinReactions.count);
             kiriVec3 at = sheet->pinRows.data[row].target;
             pinned->reactions[spring] = sheet->pinReactions.data[row++];
@@ -549,7 +547,7 @@ void kiriPins_SumShares(kiriSheetData* sheet)
 {
     KIRI_EACH(kiriPinData, pin, sheet->pins) {
         if (pin->type != KIRI_PIN_POINT) {
-            memset(&pin->bore, 0, sizeof(kiriWrench));
+            KIRI_CLEAR(&pin->bore);
         }
     }
     KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -564,7 +562,7 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
         int32_t i = *at;
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->reaction = sheet->frameReactions.data[i];
-        memset(&frame->bore, 0, sizeof(frame->bore));
+        KIRI_CLEAR(&frame->bore);
         kiriWrench_Add(&frame->bore, 1.0 / dt, &frame->reaction.impulse);
     }
     KIRI_EACH(kiriPinData, pin, sheet->pins) {

@@ -2,7 +2,6 @@
 #include "kiri_piece.h"
 
 #include <math.h>
-#include <string.h>
 
 bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPlace* place)
 {
@@ -135,11 +134,11 @@ static void ResizeBlocks(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
     KIRI_ASSERT(count <= blocks->movers.capacity && frameCount <= blocks->moved.capacity);
     blocks->touched.count = blocks->stale.count = blocks->movers.count = count;
     blocks->moved.count = frameCount;
-    for (int32_t block = old; block < count; ++block) {
+    KIRI_FROM_TO(block, old, count) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
         ForgetBlock(blocks, block);
     }
-    for (int32_t i = oldFrames; i < frameCount; ++i) {
+    KIRI_FROM_TO(i, oldFrames, frameCount) {
         blocks->moved.data[i] = 0;
     }
 }
@@ -276,7 +275,7 @@ static void StaleChanges(kiriSheetData* sheet)
     KIRI_EACH(const int32_t, changed, mesh->changedVertices) {
         StaleBlock(sheet, *changed);
     }
-    for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
+    KIRI_FROM_TO(t, mesh->oldTriangleCount, mesh->triangles.count) {
         StaleCorners(sheet, mesh->triangles.data[t].vertex);
     }
 }
@@ -307,7 +306,7 @@ void kiriView_HideGone(kiriSheetData* sheet)
 void kiriView_WriteTopology(kiriSheetData* sheet)
 {
     kiriView_Resize(sheet, sheet->frames.count);
-    for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
+    KIRI_FROM_TO(v, sheet->mesh.oldVertexCount, sheet->mesh.oldVertexCount + sheet->mesh.births.count) {
         const kiriBirth* birth = &sheet->mesh.births.data[v - sheet->mesh.oldVertexCount];
         /* On the visible triangle that the vertex was born in. */
         kiriSurface_Place(&sheet->seen.surface, v,
@@ -408,7 +407,7 @@ static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 static bool IsAnyBeyond(const float* a, const float* b, int32_t count, float most)
 {
     int32_t beyond = 0;
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         float by = a[k] - b[k];
         beyond |= !(by <= most) | !(by >= -most);
     }
@@ -487,7 +486,7 @@ static void TakePointJumps(kiriSheetData* sheet)
     }
     BlendPoints(sheet, false);
     kiriFades_Start(&seen->pointFades);
-    for (int32_t i = 0; i < seen->pointCount; ++i) {
+    KIRI_TIMES(i, seen->pointCount) {
         kiriFades_Take(&seen->pointFades, i, kiriVec3_Sub(was[i], is[i]));
     }
     seen->pointCount = sheet->points.count;
@@ -553,7 +552,7 @@ static bool IsSumKnown(const kiriSheetData* sheet)
     const kiriSurface* surface = &sheet->seen.surface;
     bool isKnown = surface->isPartly && surface->hasSlopes && surface->hasNormals && surface->wantsNormals;
     int32_t anew = 0, blocks = (surface->vertexCount + KIRI_BLOCK - 1) / KIRI_BLOCK;
-    for (int32_t block = 0; isKnown && block < blocks; ++block) {
+    KIRI_TIMES_WHILE(isKnown, block, blocks) {
         anew += IsMeant(&sheet->seen.blocks, block, true);
     }
     return isKnown && FEW * (int64_t)anew <= blocks;
@@ -564,7 +563,7 @@ static bool SumSomeNormals(kiriSheetData* sheet)
 {
     const kiriBlocks* blocks = &sheet->seen.blocks;
     bool ok = true;
-    for (int32_t v = 0; ok && v < sheet->seen.surface.vertexCount; ++v) {
+    KIRI_TIMES_WHILE(ok, v, sheet->seen.surface.vertexCount) {
         int32_t block = v / KIRI_BLOCK;
         if (!IsMeant(blocks, block, true)) {
             v = (block + 1) * KIRI_BLOCK - 1;
@@ -642,7 +641,7 @@ static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint
     kiriVec2 from = kiriMesh_Local(mesh, at), end = kiriMesh_Local(mesh, to);
     kiriNearby nearby = kiriNearby_Begin(&mesh->squares, at, to, 0.0);
     for (int32_t triangle = kiriNearby_Next(&nearby); triangle != KIRI_NONE; triangle = kiriNearby_Next(&nearby)) {
-        for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        KIRI_FROM_TO(h, 3 * triangle, 3 * triangle + 3) {
             kiriVec2 p = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
             double next = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h))),
                    last = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, kiriEdge_Previous(h))));
@@ -694,7 +693,7 @@ static void ListDetail(kiriSheetData* sheet)
         KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
             detail->moving.data[4 * v + 3] = 1.0f;
         }
-        for (int32_t h = 0; sheet->mesh.folds.count > 0 && h < 3 * sheet->mesh.triangles.count; ++h) {
+        KIRI_TIMES_WHILE(sheet->mesh.folds.count > 0, h, 3 * sheet->mesh.triangles.count) {
             if (kiriMesh_IsCrease(&sheet->mesh, h)) { /* both sides stay together */
                 detail->moving.data[4 * kiriMesh_Tail(&sheet->mesh, h) + 3] = 0.0f;
                 detail->moving.data[4 * kiriMesh_Tail(&sheet->mesh, kiriEdge_Next(h)) + 3] = 0.0f;
@@ -758,7 +757,7 @@ bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
     ListDetail(sheet);
     int32_t count = task.detail->vertices.count;
     kiriTasks_Run(tasks, BeginDetail, count, VERTICES, &task);
-    for (int32_t sweep = 0; sweep < task.detail->sweeps; ++sweep) {
+    KIRI_TIMES(sweep, task.detail->sweeps) {
         for (task.color = 0; task.color < KIRI_DETAIL_COLORS; ++task.color) {
             int32_t groups = kiriDetail_GroupCount(task.detail, task.color);
             kiriTasks_Run(tasks, SweepDetail, groups, task.color < KIRI_DETAIL_COLORS - 1 ? GROUPS : INT32_MAX, &task);

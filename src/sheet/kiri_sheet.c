@@ -107,7 +107,7 @@ kiriTotals kiriSheet_SumFrames(const kiriSheetData* sheet, const int32_t* indice
 {
     kiriTotals totals = { 0 };
     kiriVec3 center = { 0 }, momentum = center, angular = center;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         const kiriFrameData* frame = &sheet->frames.data[indices != NULL ? indices[i] : i];
         if (kiriSheet_IsGone(sheet, indices != NULL ? indices[i] : i)) {
             continue;
@@ -142,10 +142,10 @@ void kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, const kiriMe
     KIRI_ASSERT(count <= room->capacity);
     room->count = count;
     *past = (kiriPast){ tick, was.sheet, same, room->data, count };
-    for (int32_t v = same; v < first; ++v) {
+    KIRI_FROM_TO(v, same, first) {
         room->data[v - same] = kiriPast_IndexOf(&was, v);
     }
-    for (int32_t v = first; v < mesh->vertices.count; ++v) {
+    KIRI_FROM_TO(v, first, mesh->vertices.count) {
         const kiriBirth* birth = &mesh->births.data[v - mesh->oldVertexCount];
         bool isTorn = birth->parent[1] == KIRI_NONE;
         KIRI_ASSERT(birth->parent[0] < v);
@@ -172,7 +172,7 @@ bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriS
 {
     KIRI_ASSERT(past->sheet == 0); /* a part is one piece until the next tick: nothing leaves it before */
     int32_t* others = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
-    for (int32_t k = 0; others != NULL && k < count; ++k) {
+    KIRI_TIMES_WHILE(others != NULL, k, count) {
         others[k] = kiriPast_IndexOf(past, vertices[k]);
     }
     *to = (kiriPast){ past->tick, sheet, 0, others, count };

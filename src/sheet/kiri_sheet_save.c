@@ -9,8 +9,6 @@
 #include "kiri_touch.h"
 #include "kiri_update.h"
 
-#include <string.h>
-
 /* ---- Settings and layout ----------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(SettingsTable, kiriSettings, {
@@ -563,7 +561,7 @@ static bool ArePins(const kiriSheetData* sheet)
         areFine = IsOnLattice(pin->at) && IsOnLattice(pin->to) &&
                   isPoint == (pin->at.x == pin->to.x && pin->at.y == pin->to.y) && isPoint == (pin->stiffness > 0.0);
     }
-    for (int32_t k = 0; areFine && k < shares->count; ++k) {
+    KIRI_TIMES_WHILE(areFine, k, shares->count) {
         const kiriPinShare* share = &shares->data[k];
         areFine = sheet->pins.data[share->pin].type != KIRI_PIN_POINT &&
                   (k == 0 || shares->data[k - 1].pin <= share->pin) && share->share.length > 0.0 &&
@@ -650,7 +648,7 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
 static bool AreCreasesJoined(const kiriSheetData* sheet)
 {
     bool areJoined = true;
-    for (int32_t h = 0; areJoined && h < 3 * sheet->mesh.triangles.count; ++h) {
+    KIRI_TIMES_WHILE(areJoined, h, 3 * sheet->mesh.triangles.count) {
         areJoined = !kiriMesh_IsCrease(&sheet->mesh, h) ||
                     kiriPiece_OfTriangle(sheet, h / 3) == kiriPiece_OfTriangle(sheet, kiriMesh_Twin(&sheet->mesh, h) / 3);
     }
@@ -704,7 +702,7 @@ static bool RemakeProbes(kiriSheetData* sheet)
     if (!read.isFresh) {
         return true;
     }
-    memset(&sheet->probes, 0, sizeof(sheet->probes));
+    KIRI_CLEAR(&sheet->probes);
     sheet->probes.block = read.block > 0 ? read.block : 1;
     sheet->probes.isFresh = true;
     sheet->probes.folds = read.folds;

@@ -73,13 +73,13 @@ static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* ow
 static bool SpreadShare(const SeverWork* work, kiriLineShare own)
 {
     double sum = 0.0, t, width;
-    for (int32_t k = 0; k < work->linkCount; ++k) {
+    KIRI_TIMES(k, work->linkCount) {
         const kiriLink* link = &work->links[k];
         bool isOwn = link->i == own.frame || link->j == own.frame;
         sum += isOwn && IsAcross(work, link, &t, &width) ? width : 0.0;
     }
     double spread = kiriMin(own.alone, sum);
-    for (int32_t k = 0; spread > 0.0 && k < work->linkCount; ++k) {
+    KIRI_TIMES_WHILE(spread > 0.0, k, work->linkCount) {
         const kiriLink* link = &work->links[k];
         bool isOwn = link->i == own.frame || link->j == own.frame;
         if (isOwn && IsAcross(work, link, &t, &width)) {
@@ -98,7 +98,7 @@ static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
     int32_t left = kiriOwner_OfNode(work->sheet, part->node[0], work->isStaged);
     int32_t right = kiriOwner_OfNode(work->sheet, part->node[1], work->isStaged);
     int32_t i = kiriMin(left, right), j = kiriMax(right, left);
-    for (int32_t k = 0; i != KIRI_NONE && i != j && k < work->linkCount; ++k) {
+    KIRI_TIMES_WHILE(i != KIRI_NONE && i != j, k, work->linkCount) {
         double t, width;
         if (work->links[k].i == i && work->links[k].j == j && IsAcross(work, &work->links[k], &t, &width)) {
             return AddSevered(work, k, (part->to - part->from) / width, 0.0);
@@ -112,7 +112,7 @@ static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
 static bool HoldEdges(const SeverWork* work)
 {
     const double near = 0.01 * work->sheet->grid.side;
-    for (int32_t k = 0; k < work->linkCount; ++k) {
+    KIRI_TIMES(k, work->linkCount) {
         const kiriLink* link = &work->links[k];
         for (int32_t end = -1; end <= 1; end += 2) {
             kiriVec2 at = kiriVec2_AddScaled(link->centroid, 0.5 * end * link->width, link->tangent);
@@ -153,7 +153,7 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
     KIRI_EACH_WHILE(ok, const kiriLinePart, part, sheet->line.parts) {
         ok = SeverBorder(&work, part);
     }
-    for (int32_t k = 0; ok && k < own; ++k) {
+    KIRI_TIMES_WHILE(ok, k, own) {
         ok = SpreadShare(&work, sheet->lineShares.data[k]);
     }
     return ok && HoldEdges(&work);
@@ -202,7 +202,7 @@ static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
     const kiriGridChanges* changes = &sheet->grid.changes;
     int32_t gone = changes->gone.count, steps = gone + changes->steps.count;
     bool any = false;
-    for (int32_t i = 0; i < steps + changes->material.count; ++i) {
+    KIRI_TIMES(i, steps + changes->material.count) {
         int32_t cell = i < gone    ? changes->gone.data[i]
                        : i < steps ? changes->steps.data[i - gone]
                                    : changes->material.data[i - steps].cell;
@@ -259,7 +259,7 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
         ++found;
     }
     bool ok = found == placing->moves.count;
-    for (int32_t m = 0; m < found; ++m) {
+    KIRI_TIMES(m, found) {
         kiriSiteMove move = placing->moves.data[m];
         placing->flags.data[placing->sites.data[move.frame].cell] = 0;
         if (placing->sites.data[move.frame].cell != move.was) {
@@ -313,7 +313,7 @@ static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece
     kiriSite pair[2];
     KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
     bool isFar = false, ok = true;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         double side = k == 0 ? 1.0 : -1.0;
         frames[k] = SiteBeside(sheet, end, piece, side, PAIR_RANGE * spacing);
         pair[k] = kiriSlit_SiteBeside(&sheet->grid, &sheet->mesh, end, side * reach);
@@ -326,7 +326,7 @@ static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece
     }
     bool isFree = pair[0].cell != pair[1].cell && IsFree(sheet, &pair[0], frames) && IsFree(sheet, &pair[1], frames);
     kiriPlacingWork* placing = &sheet->update->placing;
-    for (int k = 0; ok && isFar && isFree && k < 2; ++k) {
+    KIRI_TIMES_WHILE(ok&& isFar&& isFree, k, 2) {
         bool hasMoved = false;
         KIRI_EACH(const kiriSiteMove, move, placing->moves) {
             hasMoved = hasMoved || move->frame == frames[k];
@@ -636,7 +636,7 @@ static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
     int32_t own = placing->own.count, most = kiriSites_MostIn(placing->placer.cells.count) - own,
             left = sheet->settings.maxFrames - placing->sites.count, needing = 0;
     double largest = 1.0;
-    for (int32_t i = 0; i < own; ++i) {
+    KIRI_TIMES(i, own) {
         double need = NeedOf(sheet, placing->own.data[i]);
         needing += need > 1.0;
         largest = kiriMax(need, largest);

@@ -3,8 +3,6 @@
 #include "kiri_piece.h"
 #include "../field/kiri_site.h"
 
-#include <string.h>
-
 #define RING_INNER 0.5  /* spacings: radii of the ring in which energy is measured */
 #define RING_OUTER 1.5
 #define REACH 2.0       /* spacings ahead over which the stress is taken */
@@ -90,12 +88,12 @@ static void MeasurePulls(kiriSheetData* sheet)
     tears->pulls.count = count;
     tears->regions.count = sheet->frames.count;
     memset(tears->regions.data, 0, sizeof(kiriPlasticRegion) * (size_t)sheet->frames.count);
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         double *pull = tears->pulls.data[k].strain, w = links[k].width / links[k].length;
         MeasurePull(sheet, k, &links[k], &sheet->frames.data[links[k].i], &sheet->frames.data[links[k].j], pull);
         kiriVec2 s = links[k].span, gap = kiriVec2_Scale(pull[KIRI_STRETCH], links[k].normal);
         gap = kiriVec2_AddScaled(gap, pull[KIRI_SHEAR], links[k].tangent);
-        for (int end = 0; end < 2; ++end) {
+        KIRI_TIMES(end, 2) {
             kiriPlasticRegion* region = &tears->regions.data[end == 0 ? links[k].i : links[k].j];
             region->matrix.uu += w * s.x * s.x;
             region->matrix.uv += w * s.x * s.y;
@@ -161,7 +159,7 @@ static double EnergyAfter(const kiriSheetData* sheet, int32_t k, const kiriVec2 
     link.moment *= growth * growth * growth;
     link.centroid = kiriVec2_Add(link.centroid, middle);
     link.crossing = kiriVec2_Add(link.crossing, middle);
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         kiriPose pose = kiriPose_Of(&frames[end]);
         frames[end].center = kiriVec2_Add(frames[end].center, moves[end]);
         frames[end].site.at = kiriVec2_Add(frames[end].site.at, moves[end]);
@@ -169,7 +167,7 @@ static double EnergyAfter(const kiriSheetData* sheet, int32_t k, const kiriVec2 
     }
     MeasurePull(sheet, k, &link, &frames[0], &frames[1], pull);
     kiriStrain_Stiffness(&link, &sheet->settings.material, stiffness);
-    for (int e = 0; e < KIRI_STRAINS; ++e) {
+    KIRI_TIMES(e, KIRI_STRAINS) {
         sum += 0.5 * stiffness[e] * pull[e] * pull[e];
     }
     return sum;
@@ -316,7 +314,7 @@ static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriV
     KIRI_ASSERT_HAS(mesh->vertices, tip->vertex);
     kiriNearby around = kiriNearby_Begin(&mesh->squares, tip->point, kiriMesh_Snap(mesh, kiriVec2_Add(from, way)), 0.0);
     for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
-        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
             bool isLip = isOutline || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
             if (isLip && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {

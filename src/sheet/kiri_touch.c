@@ -3,8 +3,6 @@
 #include "kiri_piece.h"
 #include "kiri_seen.h"
 
-#include <string.h>
-
 /* ---- The sheet as a whole ---------------------------------------------------------------------------------------- */
 
 kiriBox kiriSheet_Box(const kiriSheetData* sheet)
@@ -14,7 +12,7 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
         return kiriBounds_All(sheet->seen.bounds);
     }
     kiriBox box = KIRI_EMPTY_BOX;
-    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+    KIRI_TIMES(v, surface->vertexCount) {
         kiriBox_Add(&box, kiriSurface_At(surface, v));
     }
     return box;
@@ -47,7 +45,7 @@ int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
     kiriSampleWeight most = skin->weights.data[span.first];
-    for (int32_t k = span.first + 1; k < span.first + span.count; ++k) {
+    KIRI_FROM_TO(k, span.first + 1, span.first + span.count) {
         most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
     }
     return most.frame;
@@ -106,7 +104,7 @@ static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* ch
             }
         }
     }
-    for (int32_t i = 0; ok && i < choices->count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, choices->count) {
         const Choice* choice = &choices->data[i]; /* the inside needs no probe if the border has one */
         bool hasBorder = false;
         KIRI_EACH(const Choice, other, *choices) {
@@ -130,7 +128,7 @@ static bool ListChosen(kiriSheetData* sheet, const int32_t* ofVertex, int32_t gr
         first[ofVertex[v] + 2] += probes->isChosen.data[v];
         count += probes->isChosen.data[v];
     }
-    for (int32_t g = 0; g < groups; ++g) {
+    KIRI_TIMES(g, groups) {
         first[g + 2] += first[g + 1];
     }
     if (!kiriArray_Resize(sheet->memory, &row->items, count)) {
@@ -149,7 +147,7 @@ static void MarkBorder(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     KIRI_EACH(const kiriTriangle, triangle, sheet->mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
+        KIRI_TIMES(i, 3) {
             if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
                 int32_t from = triangle->vertex[i], to = triangle->vertex[(i + 1) % 3];
                 kiriVec2 along = kiriMesh_Direction(&sheet->mesh, from, to), left = kiriVec2_Make(-along.y, along.x);
@@ -172,7 +170,7 @@ static bool MarkVertices(kiriSheetData* sheet)
         return false;
     }
     probes->areGrouped = false;
-    for (int32_t v = 0; v < vertices; ++v) {
+    KIRI_TIMES(v, vertices) {
         probes->vertexPiece.data[v] = kiriPiece_OfVertex(sheet, v);
         probes->isBorder.data[v] = probes->isChosen.data[v] = 0;
         probes->leans.data[v] = kiriVec2_Make(0.0, 0.0);
@@ -313,7 +311,7 @@ static void MergeForces(kiriTouchMemory* memory, const int32_t* order, int32_t c
 void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndices* order)
 {
     order->count = 0;
-    for (int32_t i = first; i < memory->touches.count; ++i) {
+    KIRI_FROM_TO(i, first, memory->touches.count) {
         kiriVec3 force = memory->touches.data[i].force;
         if (kiriVec3_Dot(force, force) > 0.0) {
             KIRI_NEXT(*order) = i;
@@ -437,7 +435,7 @@ static bool FindYieldOf(kiriSheetData* sheet, const kiriContact* contact, int32_
     *yield = contact->inverseMass > 0.0f ? kiriTouches_FindYield(sheet, number) : KIRI_NONE;
     if (contact->inverseMass > 0.0f && *yield == KIRI_NONE) {
         kiriYieldRow row;
-        memset(&row, 0, sizeof(row));
+        KIRI_CLEAR(&row);
         row.number = number;
         row.inverseMass = contact->inverseMass;
         *yield = kiriTouches_AddYield(sheet, &row);
@@ -450,7 +448,7 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
 {
     const kiriContact* contact = &given->contact;
     kiriTouch touch;
-    memset(&touch, 0, sizeof(touch));
+    KIRI_CLEAR(&touch);
     touch.key = KeyOfGiven(sheet, contact);
     touch.point = contact->point >= 0 ? contact->point : KIRI_NONE;
     memcpy(touch.vertex, given->vertex, sizeof(touch.vertex));
@@ -572,7 +570,7 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
     double sum = 0.0;
     for (int32_t n = 0; n < blend->count && count < most; ++n) {
         int32_t best = n; /* the largest one that remains; among equal ones the lower frame */
-        for (int32_t k = n + 1; k < blend->count; ++k) {
+        KIRI_FROM_TO(k, n + 1, blend->count) {
             const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];
             best = a->value > b->value || (a->value == b->value && a->frame < b->frame) ? k : best;
         }
@@ -585,7 +583,7 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
         }
     }
     KIRI_ASSERT(count > 0);
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         weights[n].value /= sum;
     }
     return count;
@@ -608,7 +606,7 @@ int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, 
 static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count, kiriVec2 at)
 {
     kiriVec3 x = { 0 };
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         x = kiriVec3_AddScaled(x, weights[n].value, kiriFrame_Carry(&sheet->frames.data[weights[n].frame], at));
     }
     return x;
@@ -617,7 +615,7 @@ static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriWeight* weigh
 static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, double sampleMass, kiriContactRow* row)
 {
     TouchBlend blend = BlendOf(sheet, touch);
-    memset(row, 0, sizeof(*row));
+    KIRI_CLEAR(row);
     row->key = touch->key;
     row->at = blend.at;
     row->normal = touch->normal;
@@ -643,7 +641,7 @@ static double ProbeMass(const kiriSheetData* sheet, const kiriWeight* weights, i
 {
     const kiriMaterial* material = &sheet->settings.material;
     double side = sheet->mesh.step * sheet->mesh.squares.side * sheet->probes.block, carried = 0.0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         carried += weights[n].value * sheet->frames.data[weights[n].frame].mass;
     }
     return kiriMin((double)material->density * material->thickness * side * side, PROBE_SHARE * carried);
@@ -710,7 +708,7 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
 const kiriTouchForce* kiriTouches_Find(const kiriSheetData* sheet, uint64_t key)
 {
     const kiriTouchMemory* memories[] = { &sheet->touches.last, &sheet->touches.slept };
-    for (int n = 0; n < 2; ++n) {
+    KIRI_TIMES(n, 2) {
         int32_t at = FindForce(memories[n], key);
         if (at < memories[n]->forces.count && memories[n]->forces.data[at].key == key) {
             return &memories[n]->forces.data[at];
@@ -837,7 +835,7 @@ static void ListCalm(kiriSheetData* sheet)
     kiriTouches* touches = &sheet->touches;
     int32_t count = touches->found.count + touches->last.touches.count + touches->slept.touches.count;
     touches->order.count = 0;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         const kiriTouch* touch = TouchAt(touches, i);
         if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST) && PieceOfTouch(sheet, touch)->rest.calm >= KIRI_CALM_SECONDS) {
             KIRI_NEXT(touches->order) = i;
@@ -857,7 +855,7 @@ static bool AreSame(const kiriSheetData* sheet, const int32_t* order, int32_t co
         ++found;
     }
     bool same = 2 * found == count;
-    for (int32_t n = 0; same && n < found; ++n) {
+    KIRI_TIMES_WHILE(same, n, found) {
         same = IsSame(sheet, TouchAt(touches, order[found + n]), TouchAt(touches, order[n]));
     }
     return same;
@@ -903,7 +901,7 @@ bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* 
         touch->key = (touch->key & ~UINT64_C(0xffffffff)) | (uint32_t)touch->point;
         return touch->point != KIRI_NONE;
     }
-    for (int n = 0; n < 3; ++n) {
+    KIRI_TIMES(n, 3) {
         touch->vertex[n] = kiriKeep_To(vertices, touch->vertex[n]);
         if (touch->vertex[n] == KIRI_NONE) {
             return false;
@@ -924,7 +922,7 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
     if (touch->row != KIRI_NONE) {
         const kiriContactRow* row = &sheet->touches.rows.data[touch->row];
         kiriVec3 now = { 0 };
-        for (int32_t n = 0; n < row->weightCount; ++n) {
+        KIRI_TIMES(n, row->weightCount) {
             kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);
             now = kiriVec3_AddScaled(now, row->weights[n].value, x);
         }

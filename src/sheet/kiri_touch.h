@@ -6,8 +6,6 @@
 
 #include "kiri_sheet.h"
 
-#include <string.h>
-
 KIRI_C_BEGIN
 
 /* Returns the bounding box of the visible surface. */

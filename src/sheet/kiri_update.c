@@ -4,8 +4,6 @@
 #include "kiri_seen.h"
 #include "kiri_sheet_site.h"
 
-#include <string.h>
-
 /* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
 
 /* Moves the blade step by step, and before each reserves all arrays per vertex and per triangle, so that mesh, weights
@@ -533,7 +531,7 @@ kiriQuotas kiriQuotas_Of(const kiriBudget* budget)
 {
     const int32_t items[KIRI_QUOTA_COUNT] = { budget->triangles, budget->cells, budget->samples, budget->iterations };
     kiriQuotas quotas;
-    for (int kind = 0; kind < KIRI_QUOTA_COUNT; ++kind) {
+    KIRI_TIMES(kind, KIRI_QUOTA_COUNT) {
         quotas.limits[kind] = items[kind] > 0 ? items[kind] : INT64_MAX;
         quotas.of[kind] = (kiriQuota){ quotas.limits[kind], 0, 0, false };
     }
@@ -549,7 +547,7 @@ kiriQuotas kiriQuotas_Unlimited(void)
 void kiriQuotas_Share(kiriQuotas* quotas, int spent)
 {
     int64_t left = quotas->of[spent].left, limit = quotas->limits[spent];
-    for (int kind = 0; kind < KIRI_QUOTA_ITERATIONS; ++kind) {
+    KIRI_TIMES(kind, KIRI_QUOTA_ITERATIONS) {
         if (kind != spent && left < limit && limit < INT64_MAX && quotas->limits[kind] < INT64_MAX) {
             int64_t most = left * quotas->limits[kind] / limit; /* each has 31 bits */
             kiriQuota* quota = &quotas->of[kind];
@@ -747,10 +745,10 @@ static void AddFrames(kiriSheetData* sheet)
     kiriRefit* refit = &u->refit;
     int32_t oldCount = sheet->frames.count, fit = 0;
     int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* in a new sheet the frames already exist */
-    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+    KIRI_FROM_TO(i, oldCount, u->placing.sites.count) {
         const kiriNewFrame* from = &u->newFrames.data[i - firstNew];
         kiriFrameData* frame = &sheet->frames.data[i];
-        memset(frame, 0, sizeof(*frame));
+        KIRI_CLEAR(frame);
         frame->anchor = from->anchor;
         frame->center = kiriMesh_Local(&sheet->mesh, frame->anchor);
         /* All frames that carry a vertex are in one piece, and store its data. A new sheet has no frames. */
@@ -763,7 +761,7 @@ static void AddFrames(kiriSheetData* sheet)
         kiriRefit_Solve(refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
                         &sheet->settings.material, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
     }
-    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+    KIRI_FROM_TO(i, oldCount, u->placing.sites.count) {
         while (fit < refit->fits.count && refit->fits.data[fit].frame < i) {
             ++fit;
         }

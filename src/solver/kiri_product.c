@@ -53,7 +53,7 @@ INLINE void SubtractSixBySix(const kiriProduct* p, int32_t row, int32_t column)
     const double *a = p->a + row, *b = p->b + column;
     Four s[6];
     Two t[6];
-    UNROLL for (int c = 0; c < 6; ++c)
+    UNROLL KIRI_TIMES(c, 6)
     {
         s[c] = *(const Four*)(out + (ptrdiff_t)c * p->outStride);
         t[c] = *(const Two*)(out + (ptrdiff_t)c * p->outStride + 4);
@@ -61,12 +61,12 @@ INLINE void SubtractSixBySix(const kiriProduct* p, int32_t row, int32_t column)
     for (int32_t k = 0; k < p->depth; ++k, a += p->aStride, b += p->bStride) {
         const Four a0 = *(const Four*)a;
         const Two a1 = *(const Two*)(a + 4);
-        UNROLL for (int c = 0; c < 6; ++c)
+        UNROLL KIRI_TIMES(c, 6)
         {
             s[c] -= b[c] * a0, t[c] -= b[c] * a1;
         }
     }
-    UNROLL for (int c = 0; c < 6; ++c)
+    UNROLL KIRI_TIMES(c, 6)
     {
         *(Four*)(out + (ptrdiff_t)c * p->outStride) = s[c];
         *(Two*)(out + (ptrdiff_t)c * p->outStride + 4) = t[c];

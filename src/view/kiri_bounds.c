@@ -1,8 +1,6 @@
 #include "kiri_bounds.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 enum { LEAF_SIZE = 8, NODE_SIZE = 4 }; /* triangles of a leaf, children of a node */
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
@@ -97,15 +95,15 @@ static void SortByCodes(kiriBounds* bounds, int32_t count)
         const uint32_t mask = (1u << BITS) - 1u, *codes = bounds->codes.data;
         int32_t starts[1 << BITS], first = 0, *from = bounds->order.data;
         memset(starts, 0, sizeof(starts));
-        for (int32_t i = 0; i < count; ++i) {
+        KIRI_TIMES(i, count) {
             ++starts[(codes[from[i]] >> shift) & mask];
         }
-        for (int32_t k = 0; k < 1 << BITS; ++k) {
+        KIRI_TIMES(k, 1 << BITS) {
             int32_t items = starts[k];
             starts[k] = first;
             first += items;
         }
-        for (int32_t i = 0; i < count; ++i) {
+        KIRI_TIMES(i, count) {
             bounds->other.data[starts[(codes[from[i]] >> shift) & mask]++] = from[i];
         }
         memcpy(from, bounds->other.data, sizeof(int32_t) * (size_t)count);
@@ -126,12 +124,12 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
 {
     const kiriVec2* rest = surface->rest.data;
     kiriVec2 lower = rest[0], upper = lower;
-    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+    KIRI_TIMES(v, surface->vertexCount) {
         lower = kiriVec2_Make(kiriMin(rest[v].x, lower.x), kiriMin(rest[v].y, lower.y));
         upper = kiriVec2_Make(kiriMax(rest[v].x, upper.x), kiriMax(rest[v].y, upper.y));
     }
     double width = upper.x - lower.x, height = upper.y - lower.y, scale = 65535.0 / kiriMax(width, height);
-    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+    KIRI_TIMES(t, surface->triangleCount) {
         const int32_t* v = kiriSurface_Triangle(surface, t);
         kiriVec2 sum = kiriVec2_Add(kiriVec2_Add(rest[v[0]], rest[v[1]]), rest[v[2]]);
         uint32_t x = (uint32_t)(scale * (sum.x / 3.0 - lower.x)), y = (uint32_t)(scale * (sum.y / 3.0 - lower.y));
@@ -147,8 +145,8 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
 static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8_t* moves)
 {
     kiriBox* nodes = bounds->nodes.data;
-    for (int32_t level = 0; level < bounds->levelCount; ++level) {
-        for (int32_t node = bounds->firsts[level]; node < EndOfLevel(bounds, level); ++node) {
+    KIRI_TIMES(level, bounds->levelCount) {
+        KIRI_FROM_TO(node, bounds->firsts[level], EndOfLevel(bounds, level)) {
             if (moves != NULL && !moves[node]) {
                 continue;
             }
@@ -194,8 +192,8 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
 {
     uint8_t* moves = bounds->moves.data;
     KIRI_ASSERT(bounds->moves.capacity >= bounds->nodes.count);
-    for (int32_t level = 0; level < bounds->levelCount; ++level) {
-        for (int32_t node = bounds->firsts[level]; node < EndOfLevel(bounds, level); ++node) {
+    KIRI_TIMES(level, bounds->levelCount) {
+        KIRI_FROM_TO(node, bounds->firsts[level], EndOfLevel(bounds, level)) {
             int32_t first, end = LeafItems(bounds, level, node, &first);
             moves[node] = 0;
             for (int32_t i = first; !moves[node] && i < end; ++i) {
@@ -326,7 +324,7 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
 {
     const TriangleSearch* search = context;
     bool ok = true;
-    for (int32_t i = 0; ok && i < count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, count) {
         kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
         if (!IsHidden(search->surface, triangles[i]) && search->meets(search->space, &box)) {
             ok = kiriArray_Push(search->memory, search->found, triangles[i]);
@@ -369,11 +367,11 @@ static int32_t GroupOf(const kiriSurface* surface, const int32_t* ofVertex, int3
 static int32_t WriteGroups(kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex)
 {
     int32_t mixed = 0;
-    for (int32_t level = 0; level < bounds->levelCount; ++level) {
-        for (int32_t node = bounds->firsts[level]; node < EndOfLevel(bounds, level); ++node) {
+    KIRI_TIMES(level, bounds->levelCount) {
+        KIRI_FROM_TO(node, bounds->firsts[level], EndOfLevel(bounds, level)) {
             int32_t first, end = LeafItems(bounds, level, node, &first);
             uint64_t groups = 0;
-            for (int32_t i = first; i < end; ++i) {
+            KIRI_FROM_TO(i, first, end) {
                 int32_t group = level > 0 ? KIRI_NONE : GroupOf(surface, ofVertex, bounds->order.data[i]);
                 groups |= level > 0 ? bounds->groups.data[i] : group >= 0 ? UINT64_C(1) << (group & 63) : 0;
             }
@@ -399,7 +397,7 @@ bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface*
     if (!kiriArrays_Reserve(memory, count, &bounds->codes, &bounds->other)) {
         return false;
     }
-    for (int32_t t = 0; t < count; ++t) {
+    KIRI_TIMES(t, count) {
         bounds->codes.data[t] = (uint32_t)(GroupOf(surface, ofVertex, t) + 1);
     }
     SortByCodes(bounds, count);
@@ -445,12 +443,12 @@ static void SearchNode(NearSearch* search, int32_t level, int32_t node)
     const double rounding = 1.0 + 1e-9; /* a box may round to be farther than its triangles */
     double squares[LEAF_SIZE];
     int32_t first, end = LeafItems(search->bounds, level, node, &first);
-    for (int32_t i = first; i < end; ++i) {
+    KIRI_FROM_TO(i, first, end) {
         squares[i - first] = SquareToItem(search, level, i);
     }
     for (;;) {
         int32_t best = KIRI_NONE;
-        for (int32_t i = 0; i < end - first; ++i) {
+        KIRI_TIMES(i, end - first) {
             best = squares[i] >= 0.0 && (best == KIRI_NONE || squares[i] < squares[best]) ? i : best;
         }
         if (best == KIRI_NONE || squares[best] > search->most * rounding) {
@@ -535,7 +533,7 @@ typedef struct RaySearch {
 
 static void GetDrawnCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
 {
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         corner[k] = kiriSurface_DrawnAt(surface, kiriSurface_Triangle(surface, triangle)[k]);
     }
 }
@@ -544,7 +542,7 @@ static void GetDrawnCorners(const kiriSurface* surface, int32_t triangle, kiriVe
 static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
 {
     RaySearch* search = context;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriVec3 corner[3];
         RayHit hit;
         GetDrawnCorners(search->surface, triangles[i], corner);
@@ -563,7 +561,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
                          double maxDistance, kiriHit* hit)
 {
     RaySearch search = { surface, { origin, direction, maxDistance, 0.0 }, KIRI_NONE, { 0.0, 0.0, 0.0 } };
-    memset(hit, 0, sizeof(*hit));
+    KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
     if (bounds != NULL && kiriBounds_IsFresh(bounds, surface)) {
         if (bounds->nodes.count > 0) {
@@ -574,7 +572,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
         }
         (void)WalkTree(&(BoxWalk){ bounds, NULL, MeetsRay, &search.ray, FindFirstHit, &search });
     } else {
-        for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        KIRI_TIMES(t, surface->triangleCount) {
             FindFirstHit(&search, &t, 1);
         }
     }
@@ -587,7 +585,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     const int32_t* v = &surface->indices.data[3 * (size_t)search.triangle];
     const double shares[3] = { 1.0 - search.hit.b - search.hit.c, search.hit.b, search.hit.c };
     kiriVec2 rest = surface->origin;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         rest = kiriVec2_AddScaled(rest, shares[k], surface->rest.data[v[k]]);
     }
     hit->restPoint[0] = (float)rest.x;

@@ -2,7 +2,6 @@
 #include "../core/kiri_lanes.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Share of the offsets that a tick takes away. Edges do not see a shift of the whole sheet, so without it the layer would
    drift to the end of its leash. */
@@ -45,7 +44,7 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
     float sum[3] = { 0 };
     KIRI_ASSERT(3 * vertex < detail->offsets.count);
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
-        for (int i = 0; i < 3; ++i) {
+        KIRI_TIMES(i, 3) {
             sum[i] += (float)birth->share[k] * detail->offsets.data[3 * birth->parent[k] + i];
         }
     }
@@ -78,7 +77,7 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
         KIRI_ASSERT_HAS(mesh->vertices, detail->vertices.data[k].vertex);
         marks[detail->vertices.data[k].vertex] = 0;
     }
-    for (int32_t h = 0; h < halfEdges; ++h) {
+    KIRI_TIMES(h, halfEdges) {
         if (IsListed(mesh, marks, h)) {
             uint32_t *a = &marks[kiriMesh_Tail(mesh, h)], *b = &marks[kiriMesh_Head(mesh, h)], taken = *a | *b;
             KIRI_ASSERT(*b != UINT32_MAX);
@@ -100,7 +99,7 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
     }
     detail->edges.count = detail->colorStart[last + 1];
     KIRI_ASSERT(detail->edges.count <= detail->edges.capacity);
-    for (int32_t h = 0; h < halfEdges; ++h) {
+    KIRI_TIMES(h, halfEdges) {
         if (IsListed(mesh, marks, h)) {
             kiriDetailEdge* edge = &detail->edges.data[counts[colors[h]]++];
             edge->a = kiriMesh_Tail(mesh, h);
@@ -115,7 +114,7 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
         marks[detail->edges.data[k].a] += 1;
         marks[detail->edges.data[k].b] += 1;
     }
-    for (int32_t h = 0; h < halfEdges; ++h) {
+    KIRI_TIMES(h, halfEdges) {
         if (kiriMesh_IsBorder(mesh, h)) {
             marks[kiriMesh_Tail(mesh, h)] |= BORDER;
             marks[kiriMesh_Head(mesh, h)] |= BORDER;
@@ -135,11 +134,11 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
 void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
 {
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
-    for (int32_t k = begin; k < end; ++k) {
+    KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float *from = skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
         float *to = detail->moving.data + 4 * item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
-        for (int i = 0; i < 3; ++i) {
+        KIRI_TIMES(i, 3) {
             to[i] = from[i] + keep * by[i];
         }
         to[3] = item.leash > 0.0f ? 1.0f : 0.0f;
@@ -161,7 +160,7 @@ static inline void RelaxFour(float* at, const kiriDetailEdge edges[4])
 {
     const kiriLanes least = kiriLanes_Splat(1e-30f), none = kiriLanes_Splat(0.0f);
     kiriLanes p[4], q[4], by[4];
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         p[k] = kiriLanes_Load(DETAIL_END(k, a));
         q[k] = kiriLanes_Load(DETAIL_END(k, b));
         by[k] = kiriLanes_Sub(q[k], p[k]);
@@ -181,7 +180,7 @@ static inline void RelaxFour(float* at, const kiriDetailEdge edges[4])
     by[1] = kiriLanes_Join(low, 1, 3, lowZ, 1, 3);
     by[2] = kiriLanes_Join(high, 0, 2, highZ, 0, 2);
     by[3] = kiriLanes_Join(high, 1, 3, highZ, 1, 3);
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         kiriLanes_Store(DETAIL_END(k, a), kiriLanes_Add(p[k], kiriLanes_Mul(by[k], kiriLanes_Pick(p[k], 3, 3, 3, 3))));
         kiriLanes_Store(DETAIL_END(k, b), kiriLanes_Sub(q[k], kiriLanes_Mul(by[k], kiriLanes_Pick(q[k], 3, 3, 3, 3))));
     }
@@ -193,7 +192,7 @@ void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t 
     const kiriDetailEdge* edges = detail->edges.data + detail->colorStart[color];
     const int32_t count = detail->colorStart[color + 1] - detail->colorStart[color];
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= kiriDetail_GroupCount(detail, color));
-    for (int32_t group = begin; group < end; ++group) {
+    KIRI_FROM_TO(group, begin, end) {
         const kiriDetailEdge *four = &edges[each * group], none = { vertices, vertices + 1, 0.0f };
         int32_t real = kiriMin(each, count - each * group);
         kiriDetailEdge padded[4] = { none, none, none, none };
@@ -209,7 +208,7 @@ void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t 
 void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
 {
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
-    for (int32_t k = begin; k < end; ++k) {
+    KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float* from = skin + 3 * item.vertex;
         float* at = detail->moving.data + 4 * item.vertex;
@@ -266,13 +265,13 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
 void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
 {
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
-    for (int32_t k = begin; k < end; ++k) {
+    KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float *at = detail->moving.data + 4 * item.vertex, *from = skin + 3 * item.vertex;
         float by[3] = { at[0] - from[0], at[1] - from[1], at[2] - from[2] }, *to = detail->offsets.data + (from - skin);
         float square = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
         bool isSound = square <= (item.leash > 0.0f ? 4.0f * item.leash * item.leash : 1e18f); /* false for NaN */
-        for (int i = 0; i < 3; ++i) {
+        KIRI_TIMES(i, 3) {
             to[i] = isSound ? by[i] : 0.0f;
         }
     }

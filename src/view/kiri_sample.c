@@ -1,7 +1,5 @@
 #include "kiri_sample.h"
 
-#include <string.h>
-
 /* ---- Weights ---------------------------------------------------------------------------------------------------- */
 
 static bool ResizeSampleWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* span, int32_t count)
@@ -23,7 +21,7 @@ static void DropSpan(kiriSkin* skin, kiriSpan* span)
 static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
 {
     int32_t kept = 0, largest = 0, missing = (int32_t)WEIGHT_UNITS;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         int32_t units = (int32_t)(WEIGHT_UNITS * weights[i].value + 0.5);
         if (units > 0) {
             weights[kept] = (kiriSampleWeight){ weights[i].frame, (float)(units / WEIGHT_UNITS) };
@@ -170,7 +168,7 @@ bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, 
 
 void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)
 {
-    for (int32_t v = skin->spans.count; v < mesh->vertices.count; ++v) {
+    KIRI_FROM_TO(v, skin->spans.count, mesh->vertices.count) {
         InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount]);
     }
 }
@@ -178,7 +176,7 @@ void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* me
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
 {
     KIRI_ASSERT(skin->staged.count == 0 && samples->to.count == skin->spans.count);
-    for (int32_t i = samples->first; i < skin->spans.count; ++i) {
+    KIRI_FROM_TO(i, samples->first, skin->spans.count) {
         if (!kiriKeep_Has(samples, i)) {
             DropSpan(skin, &skin->spans.data[i]);
         }

@@ -66,9 +66,9 @@ static bool MeetsSweep(const void* context, const kiriBox* box)
     kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(box->upper, box->lower)), middle = kiriVec3_Add(box->lower, half);
     double reach = p->sweep->reach;
     bool meets = true;
-    for (int axis = 0; axis < VIEW_AXES; ++axis) {
+    KIRI_TIMES(axis, VIEW_AXES) {
         double low = 1e300, high = -1e300;
-        for (int k = 0; k < 2; ++k) {
+        KIRI_TIMES(k, 2) {
             double more = k == 0 ? reach : 0.0, at = ViewOf(&p->view[k], axis, middle);
             double size = HalfOf(&p->view[k], axis, middle, kiriVec3_Add(half, kiriVec3_Make(more, more, more)));
             low = kiriMin(low, at - size - (axis == VIEW_ALONG ? p->view[k].length : 0.0));
@@ -97,7 +97,7 @@ static bool MakeViews(Pieces* p, const kiriBounds* bounds)
     kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(all.upper, all.lower)), middle = kiriVec3_Add(all.lower, half);
     half = kiriVec3_Add(half, kiriVec3_Make(sweep->reach, sweep->reach, sweep->reach));
     double most = 0.0;
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         EdgeView* view = &p->view[k];
         double length = kiriVec3_Dot(way[k], along);
         kiriVec3 lean = length > 0.0 ? kiriVec3_Scale(1.0 / length, way[k]) : along;
@@ -152,7 +152,7 @@ static bool IsLeft(const SeenCorner* a, const SeenCorner* b)
 static void FindShares(const SeenCorner* const face[3], double shares[3])
 {
     double sum = 0.0;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         shares[i] = fabs((double)Turn(face[(i + 1) % 3], face[(i + 2) % 3]));
         sum += shares[i];
     }
@@ -164,7 +164,7 @@ static void FindShares(const SeenCorner* const face[3], double shares[3])
             sum = shares[i] + shares[(i + 1) % 3];
         }
     }
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         shares[i] = sum > 0.0 ? shares[i] / sum : 1.0 / 3.0;
     }
 }
@@ -177,7 +177,7 @@ static void EndOnFace(const Pieces* p, const SeenCorner* const face[3], Piece* p
     kiriSectionPoint point = { 0 };
     FindShares(face, shares);
     depth[0] = depth[1] = 0.0;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         int32_t v = face[i]->id / 2;
         point.rest = kiriVec2_AddScaled(point.rest, shares[i], p->surface->rest.data[v]);
         point.at = kiriVec3_AddScaled(point.at, shares[i], kiriSurface_At(p->surface, v));
@@ -193,12 +193,12 @@ static void EndOnFace(const Pieces* p, const SeenCorner* const face[3], Piece* p
 /* Shortens the piece to between the ends of the edge. Returns false if nothing is left. */
 static bool ClipPiece(Piece* piece, double depth[2][2])
 {
-    for (int side = 0; side < 2; ++side) {
+    KIRI_TIMES(side, 2) {
         double d[2] = { depth[0][side], depth[1][side] };
         if (d[0] < 0.0 && d[1] < 0.0) {
             return false;
         }
-        for (int k = 0; k < 2; ++k) {
+        KIRI_TIMES(k, 2) {
             if (d[k] < 0.0) {
                 double t = d[k] / (d[k] - d[1 - k]);
                 kiriSectionPoint *a = &piece->point[k], *b = &piece->point[1 - k];
@@ -219,7 +219,7 @@ static bool CrossTetrahedron(Pieces* p, const SeenCorner* const corner[4], bool 
     Piece piece = { .next = KIRI_NONE };
     double depth[2][2];
     int ends = 0;
-    for (int f = 0; f < 4; ++f) {
+    KIRI_TIMES(f, 4) {
         const SeenCorner* const face[3] = { corner[f == 0 ? 1 : 0], corner[f < 2 ? 2 : 1], corner[f < 3 ? 3 : 2] };
         bool isLeft = IsLeft(face[0], face[1]);
         if (IsLeft(face[1], face[2]) == isLeft && IsLeft(face[2], face[0]) == isLeft) { /* it has the origin */
@@ -243,7 +243,7 @@ static bool CrossTriangle(Pieces* p, int32_t triangle)
     int32_t order[3] = { v[0], v[1], v[2] };
     bool isRight = true, beyond[4] = { true, true, true, true };
     KIRI_ASSERT(triangle >= 0 && triangle < p->surface->triangleCount);
-    for (int i = 0; i < 3; ++i) { /* 0 and 1, 1 and 2, 0 and 1 */
+    KIRI_TIMES(i, 3) { /* 0 and 1, 1 and 2, 0 and 1 */
         int k = i % 2;
         if (order[k] > order[k + 1]) {
             int32_t last = order[k];
@@ -253,10 +253,10 @@ static bool CrossTriangle(Pieces* p, int32_t triangle)
         }
     }
     SeenCorner corner[6];
-    for (int i = 0; i < 6; ++i) {
+    KIRI_TIMES(i, 6) {
         corner[i] = SeeCorner(p, order[i / 2], i % 2);
         const bool isBeyond[4] = { corner[i].x < 0, corner[i].x > 0, corner[i].y < 0, corner[i].y > 0 };
-        for (int k = 0; k < 4; ++k) {
+        KIRI_TIMES(k, 4) {
             beyond[k] = beyond[k] && isBeyond[k];
         }
     }
@@ -320,7 +320,7 @@ static bool AddLine(Pieces* p, kiriSection* section, int32_t start)
         ok = kiriArray_Push(p->memory, &section->points, last->point[1]);
     }
     const int32_t end[2] = { first->end[0], last->end[1] };
-    for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES(k, 2) {
         line.end[k] = last->next != KIRI_NONE ? KIRI_END_LOOP : end[k] == OPEN_END ? KIRI_END_BORDER : end[k];
     }
     line.count = section->points.count - line.first;
@@ -342,7 +342,7 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
         LinkPieces(&p);
     }
     /* Lines that begin somewhere, then loops. */
-    for (int pass = 0; pass < 2; ++pass) {
+    KIRI_TIMES(pass, 2) {
         KIRI_EACH_INDEX_WHILE(ok, i, p.pieces) {
             if (!p.pieces.data[i].isDone && (pass == 1 || !p.pieces.data[i].isReached)) {
                 ok = AddLine(&p, section, i);

@@ -1,8 +1,6 @@
 #include "kiri_skin.h"
 #include "../core/kiri_lanes.h"
 
-#include <string.h>
-
 /* Items of a list, or all if there is none. */
 static int32_t ItemCount(const kiriIndices* list, int32_t count)
 {
@@ -16,7 +14,7 @@ static int32_t SampleAt(const kiriIndices* list, int32_t n)
 
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some)
 {
-    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+    KIRI_TIMES(n, ItemCount(some, count)) {
         int32_t i = SampleAt(some, n);
         kiriVec3 u = frames[i].A.u, v = frames[i].A.v, d = kiriVec3_Normalize(kiriVec3_Cross(u, v));
         KIRI_ASSERT(i >= 0 && i < count);
@@ -85,7 +83,7 @@ static void BendCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFr
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
-    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+    KIRI_TIMES(n, ItemCount(some, count)) {
         bends[SampleAt(some, n)] = (kiriBend){ 0 };
     }
     linkCount = kiriLink_CountBorders(links, linkCount); /* a patch does not bend over a fold */
@@ -99,7 +97,7 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
         AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }
-    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+    KIRI_TIMES(n, ItemCount(some, count)) {
         int32_t i = SampleAt(some, n);
         BendCarrier(&carriers[i], &bends[i], &frames[i]);
     }
@@ -126,14 +124,14 @@ static void WritePatchRow(float* row, const kiriCarrier* carrier, kiriVec3 from,
     if (isBent) {
         const double first[8] = { carrier->center.x, carrier->center.y, carrier->uu,        carrier->vv,
                                   carrier->uv,       carrier->uv,       2.0 * carrier->six, 2.0 * carrier->six };
-        for (int k = 0; k < 8; ++k) {
+        KIRI_TIMES(k, 8) {
             *row++ = (float)first[k];
         }
     } else {
         vectors[0] = kiriVec3_AddScaled(vectors[0], -carrier->center.x, carrier->u);
         vectors[0] = kiriVec3_AddScaled(vectors[0], -carrier->center.y, carrier->v);
     }
-    for (int k = 0; k < (isBent ? 4 : 3); ++k) {
+    KIRI_TIMES(k, isBent ? 4 : 3) {
         kiriVec3_Store(row + 4 * k, vectors[k]);
         row[4 * k + 3] = 0.0f;
     }
@@ -166,7 +164,7 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
     patches->floats.count = (int32_t)each * count;
     KIRI_ASSERT(patches->floats.count <= patches->floats.capacity && count <= patches->isOther.capacity);
     kiriArray_Set(&patches->isOther, KIRI_PATCH_SAME);
-    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+    KIRI_TIMES(n, ItemCount(some, count)) {
         int32_t i = SampleAt(some, n);
         float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
         KIRI_ASSERT(i >= 0 && i < count);
@@ -277,7 +275,7 @@ uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone)
 {
     const int32_t *a = indices, *b = indices + 3;
     int turn = isAlone ? PAIR_ALONE : PAIR_AS_IS;
-    for (int i = 0; turn == PAIR_AS_IS && i < 9; ++i) {
+    KIRI_TIMES_WHILE(turn == PAIR_AS_IS, i, 9) {
         int j = i / 3, k = i % 3;
         bool isShared = a[j] == b[(k + 1) % 3] && a[(j + 1) % 3] == b[k];
         turn = isShared ? PAIR_TURNED + i : turn;
@@ -305,7 +303,7 @@ static inline int GetPairSlopes(const kiriCorners* corners, int32_t pair, const 
     const int32_t* indices = corners->indices + 6 * pair;
     const uint8_t* order = pairOrders[corners->turns[pair]];
     int32_t v[6];
-    for (int i = 0; i < 6; ++i) {
+    KIRI_TIMES(i, 6) {
         v[i] = indices[order[i]];
     }
     kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
@@ -320,7 +318,7 @@ static inline int GetPairSlopes(const kiriCorners* corners, int32_t pair, const 
     kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
     slopes[1] = (PairSlope){ v[0], first };
     slopes[2] = (PairSlope){ v[2], first };
-    for (int k = 3; k < 6; ++k) {
+    KIRI_FROM_TO(k, 3, 6) {
         slopes[k] = (PairSlope){ v[k], second };
     }
     return 6;
@@ -332,7 +330,7 @@ void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions,
     for (int32_t pair = 0; 2 * pair < corners->triangleCount; ++pair) {
         PairSlope of[6];
         int count = GetPairSlopes(corners, pair, positions, of);
-        for (int k = 0; k < count; ++k) {
+        KIRI_TIMES(k, count) {
             float* sum = slopes + 4 * of[k].vertex;
             KIRI_ASSERT(of[k].vertex >= 0 && of[k].vertex < vertexCount);
             kiriLanes_Store(sum, kiriLanes_Add(kiriLanes_Load(sum), of[k].slope));
@@ -369,10 +367,10 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
         h = kiriMesh_CounterClockwise(mesh, h);
         h = h == first ? KIRI_NONE : h;
     }
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         PairSlope of[6];
         int slopeCount = GetPairSlopes(corners, pairs[k], positions, of);
-        for (int i = 0; i < slopeCount; ++i) {
+        KIRI_TIMES(i, slopeCount) {
             sum = of[i].vertex == vertex ? kiriLanes_Add(sum, of[i].slope) : sum;
         }
     }
@@ -395,7 +393,7 @@ static void WriteFourNormals(float* normals, const float* slopes)
     squares = kiriLanes_Add(squares, kiriLanes_Mul(z, z));
     kiriLanes_Store(square, squares);
     kiriLanes_Store(scale, kiriLanes_Div(kiriLanes_Splat(1.0f), kiriLanes_Sqrt(squares)));
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         if (square[k] > 1e-30f && square[k] < 1e30f) {
             kiriLanes unit = kiriLanes_Mul(kiriLanes_Splat(scale[k]), kiriLanes_Load(slopes + 4 * k));
             kiriLanes_StoreThree(normals + 3 * k, unit);

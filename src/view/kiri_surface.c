@@ -2,8 +2,6 @@
 #include "../core/kiri_lanes.h"
 #include "kiri_skin.h"
 
-#include <string.h>
-
 /* ---- Fades ------------------------------------------------------------------------------------------------------- */
 
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
@@ -99,7 +97,7 @@ static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32
         kiriVec3_Add(kiriVec3_Load(&surface->normals.data[3 * a]), kiriVec3_Load(&surface->normals.data[3 * b]));
     kiriVec3 out = kiriVec3_Normalize(kiriVec3_Cross(along, up));
     int32_t first = to->vertexCount;
-    for (int k = 0; k < 4; ++k) {
+    KIRI_TIMES(k, 4) {
         AddSolidVertex(to, surface, k % 2 == 0 ? a : b, k < 2 ? half : -half, out);
     }
     AddSolidTriangle(to, first + 1, first, first + 2);
@@ -112,7 +110,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     const double half = 0.5 * thickness;
     int64_t borders = 0, halves = 3 * (int64_t)mesh->triangles.count;
     KIRI_ASSERT(mesh->triangles.count == surface->triangleCount);
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         borders += kiriMesh_IsBorder(mesh, h);
     }
     int64_t vertices = 2 * (int64_t)surface->vertexCount + 4 * borders;
@@ -126,8 +124,8 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     }
     int32_t* sources = (int32_t*)(void*)(block + 8 * vertices);
     SolidArrays to = { block, block + 3 * vertices, block + 6 * vertices, sources, sources + vertices, 0, 0 };
-    for (int side = 0; side < 2; ++side) {
-        for (int32_t v = 0; v < surface->vertexCount; ++v) {
+    KIRI_TIMES(side, 2) {
+        KIRI_TIMES(v, surface->vertexCount) {
             kiriVec3 normal = kiriVec3_Load(&surface->normals.data[3 * v]);
             AddSolidVertex(&to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
         }
@@ -136,7 +134,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
             AddSolidTriangle(&to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
         }
     }
-    for (int32_t h = 0; h < halves; ++h) {
+    KIRI_TIMES(h, halves) {
         if (kiriMesh_IsBorder(mesh, h)) {
             AddRim(&to, surface, kiriMesh_Tail(mesh, h), kiriMesh_Head(mesh, h), half);
         }
@@ -265,17 +263,17 @@ void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t 
     KIRI_ASSERT(surface->rest.count == surface->vertexCount && surface->indices.count == 3 * surface->triangleCount);
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
-    for (int32_t v = firstVertex; v < surface->vertexCount; ++v) {
+    KIRI_FROM_TO(v, firstVertex, surface->vertexCount) {
         kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
         surface->rest.data[v] = local;
         surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
         surface->restPositions.data[2 * (size_t)v + 1] = (float)rest.y;
         WriteSource(surface, mesh, v);
     }
-    for (int32_t t = firstTriangle; t < surface->triangleCount; ++t) {
+    KIRI_FROM_TO(t, firstTriangle, surface->triangleCount) {
         WriteTriangle(surface, mesh, t);
     }
-    for (int32_t pair = firstTriangle / 2; pair < surface->turns.count; ++pair) {
+    KIRI_FROM_TO(pair, firstTriangle / 2, surface->turns.count) {
         WriteTurn(surface, pair);
     }
 }
@@ -320,7 +318,7 @@ static void Unite(kiriRange* range, kiriRange more, int32_t end)
 
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty)
 {
-    memset(dirty, 0, sizeof(*dirty));
+    KIRI_CLEAR(dirty);
     dirty->revision = surface->revision;
     int32_t back = 0, vertices = surface->vertexCount, triangles = surface->triangleCount;
     uint32_t at = surface->revision;
@@ -336,7 +334,7 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
     }
     dirty->newVertices = (kiriRange){ vertices, surface->vertexCount - vertices };
     dirty->newTriangles = (kiriRange){ triangles, surface->triangleCount - triangles };
-    for (int32_t i = 0; i < back; ++i) {
+    KIRI_TIMES(i, back) {
         const kiriChange* change = &surface->changes[(surface->lastChange + KIRI_CHANGES - i) % KIRI_CHANGES];
         Unite(&dirty->oldVertices, change->vertices, vertices);
         Unite(&dirty->oldTriangles, change->triangles, triangles);
@@ -393,7 +391,7 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices)
 {
     bool ok = true;
-    memset(shown, 0, sizeof(*shown));
+    KIRI_CLEAR(shown);
 #define RESERVE_HOST_ARRAY(name, each, of)                                                                             \
     ok = ok && kiriArray_Reserve(memory, &shown->name, (each) * (int64_t)(of)->count + 1);
     HOST_ARRAYS(RESERVE_HOST_ARRAY)
@@ -448,7 +446,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
 
 static void CopyStrided(const float* from, int32_t count, void* to, int32_t stride)
 {
-    for (int32_t i = 0; to != NULL && i < count; ++i) {
+    KIRI_TIMES_WHILE(to != NULL, i, count) {
         memcpy((char*)to + (int64_t)i * stride, from + 3 * (int64_t)i, 3 * sizeof(float));
     }
 }
@@ -496,7 +494,7 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
         unit *= 0.5;
     }
     kiriVec3 sum = { 0 };
-    for (int32_t i = 0; i < frameCount; ++i) {
+    KIRI_TIMES(i, frameCount) {
         sum = kiriVec3_AddScaled(sum, 1.0 / frameCount, frames[i].x);
     }
     return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
@@ -705,7 +703,7 @@ static bool IsRangeUpTo(kiriRange range, int32_t end)
 bool kiriSurface_AreChangesSound(const kiriSurface* surface)
 {
     bool areFine = true;
-    for (int32_t k = 0; k < surface->changeCount; ++k) {
+    KIRI_TIMES(k, surface->changeCount) {
         const kiriChange* change = &surface->changes[(surface->lastChange + KIRI_CHANGES - k) % KIRI_CHANGES];
         areFine = areFine && change->oldVertexCount >= 0 && change->oldVertexCount <= surface->vertexCount &&
                   change->oldTriangleCount >= 0 && change->oldTriangleCount <= surface->triangleCount &&

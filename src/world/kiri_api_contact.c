@@ -6,14 +6,12 @@
 #include "kiri_blade.h"
 #include "kiri_seam.h"
 
-#include <string.h>
-
 void kiriDefaultObstacleDef(kiriObstacleDef* def)
 {
     if (def == NULL) {
         return;
     }
-    memset(def, 0, sizeof(*def));
+    KIRI_CLEAR(def);
     def->cookie = KIRI_COOKIE(kiriObstacleDef);
     def->rotation[0] = def->rotation[4] = def->rotation[8] = 1.0f;
     def->friction = 0.5f;
@@ -213,7 +211,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
 {
     KIRI_CHANGES(Sheet_SetContacts, &sheet, contacts, &count);
     kiriSheetData* data = call->sheet;
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriGivenContact given = { .contact = contacts[i] };
         KIRI_CHECK(PlaceContact(data, &given), "a contact names no collision point, or its restPoint lies outside the "
                                                "material");
@@ -225,7 +223,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
                                 kiriTouches_Room(data, room)),
                  KIRI_ERROR_MEMORY, NULL);
     KIRI_ASSERT(data->contacts.capacity >= count);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriGivenContact given = { .contact = contacts[i] };
         PlaceContact(data, &given);
         data->contacts.data[i] = given;
@@ -248,7 +246,7 @@ kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, c
 void kiriDefaultPinDef(kiriPinDef* def)
 {
     if (def != NULL) {
-        memset(def, 0, sizeof(*def));
+        KIRI_CLEAR(def);
         def->cookie = KIRI_COOKIE(kiriPinDef);
     }
 }
@@ -449,7 +447,7 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
 void kiriDefaultSeamDef(kiriSeamDef* def)
 {
     if (def != NULL) {
-        memset(def, 0, sizeof(*def));
+        KIRI_CLEAR(def);
         def->cookie = KIRI_COOKIE(kiriSeamDef);
     }
 }

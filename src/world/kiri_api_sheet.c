@@ -11,14 +11,13 @@
 #include "kiri_move.h"
 
 #include <float.h>
-#include <string.h>
 
 void kiriDefaultSheetDef(kiriSheetDef* def)
 {
     if (def == NULL) {
         return;
     }
-    memset(def, 0, sizeof(*def));
+    KIRI_CLEAR(def);
     def->cookie = KIRI_COOKIE(kiriSheetDef);
     def->axisU[0] = 1.0f;
     def->axisV[1] = 1.0f;
@@ -78,8 +77,8 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
             *restPositions++ = (float)((double)height * j / rows);
         }
     }
-    for (int32_t j = 0; j < rows; ++j) {
-        for (int32_t i = 0; i < columns; ++i) {
+    KIRI_TIMES(j, rows) {
+        KIRI_TIMES(i, columns) {
             /* Diagonals alternate, so that the mesh has no grain. */
             int32_t a = j * (columns + 1) + i, b = a + 1, c = a + columns + 2, d = a + columns + 1;
             int32_t even[6] = { a, b, c, a, c, d }, odd[6] = { a, b, d, b, c, d };
@@ -144,7 +143,7 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
     KIRI_REQUIRE(!data->ended, KIRI_ERROR_STATE, "the cut has been ended");
     KIRI_REQUIRE(kiriArray_Reserve(&world->memory, &sheet->queue, (int64_t)sheet->queue.count + count),
                  KIRI_ERROR_MEMORY, NULL);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriWorld_QueuePoint(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
     KIRI_RETURN(KIRI_OK);
@@ -594,8 +593,8 @@ static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocit
 {
     frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
     frame->spin = spin;
-    memset(&frame->rate, 0, sizeof(frame->rate));
-    memset(&frame->history, 0, sizeof(frame->history));
+    KIRI_CLEAR(&frame->rate);
+    KIRI_CLEAR(&frame->history);
 }
 
 /* Gives a piece, or all (KIRI_NONE), a rigid motion about its center of mass. In a planar sheet, only the components in its
@@ -655,7 +654,7 @@ static void Shift(kiriVec3* at, kiriVec3 origin)
 
 static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
 {
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         Shift(&touches[i].seen, origin);
         touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
     }
@@ -726,7 +725,7 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
     KIRI_ASSERT(done <= world->sheets.count);
     bool areAll = done == world->sheets.count;
     const kiriVec3 none = { 0 };
-    for (int32_t i = 0; i < done; ++i) {
+    KIRI_TIMES(i, done) {
         ShiftSheet(world->sheets.data[i], areAll ? to : none);
     }
     KIRI_REQUIRE(areAll, KIRI_ERROR_MEMORY, NULL);

@@ -9,7 +9,6 @@
 #include "kiri_draw.h"
 
 #include <float.h>
-#include <string.h>
 
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh)
 {
@@ -75,7 +74,7 @@ kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32
     KIRI_FIND(sheet);
     KIRI_CHECK(IsRange(first, count, found->seen.surface.vertexCount), "the sheet has no such vertices");
     const kiriPast past = kiriPast_At(&found->past, world->begun);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         vertices[i] = kiriPast_IndexOf(&past, first + i);
     }
     *from = past.sheet != 0 ? past.sheet : sheet;
@@ -102,7 +101,7 @@ kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_
                                  int32_t* sources)
 {
     READS_TRIANGLES(sources);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         sources[i] = found->mesh.triangles.data[firstTriangle + i].source;
     }
     return KIRI_OK;
@@ -198,7 +197,7 @@ kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], cons
     KIRI_CHECK_OUT(sheet);
     CHECK_RAY();
     *sheet = 0;
-    memset(hit, 0, sizeof(*hit));
+    KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
     KIRI_EACH_INDEX(i, world->sheets) {
         kiriHit next;
@@ -284,7 +283,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
 void kiriDefaultDebugDraw(kiriDebugDraw* draw)
 {
     if (draw != NULL) {
-        memset(draw, 0, sizeof(*draw));
+        KIRI_CLEAR(draw);
         draw->cookie = KIRI_COOKIE(kiriDebugDraw);
         draw->flags = KIRI_DRAW_ALL & ~(KIRI_DRAW_TRIANGLES | KIRI_DRAW_EDGES);
         draw->size = 0.05f;

@@ -9,7 +9,6 @@
 
 #include <float.h>
 #include <stdio.h>
-#include <string.h>
 
 /* Measured values have their source here. Damping and values called assumed are chosen for their look.
 
@@ -130,7 +129,7 @@ const char* kiriGetStageName(int32_t stage)
 void kiriDefaultWorldDef(kiriWorldDef* def)
 {
     if (def != NULL) {
-        memset(def, 0, sizeof(*def));
+        KIRI_CLEAR(def);
         def->cookie = KIRI_COOKIE(kiriWorldDef);
         def->gravity[2] = -9.81f;
         def->recordHashTicks = 60;
@@ -180,7 +179,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     if (made == NULL) {
         return RefuseWorld(def, KIRI_ERROR_MEMORY, NULL);
     }
-    memset(made, 0, sizeof(*made));
+    KIRI_CLEAR(made);
     made->memory = kiriMemory_Like(&memory);
     made->retired = kiriMemory_Like(&memory);
     made->log = def->log;
@@ -335,7 +334,7 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
         kiriStruct_Check(kiriArguments[KIRI_ARGUMENT_BUDGET].of, "", NULL, budget, &fault) != KIRI_OK) {
         return KIRI_ERROR_ARGUMENT;
     }
-    for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
+    KIRI_TIMES(i, KIRI_STAGE_COUNT) {
         if (!(profile->seconds[i] >= 0.0)) {
             return KIRI_ERROR_ARGUMENT;
         }

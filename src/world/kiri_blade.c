@@ -2,8 +2,6 @@
 #include "../mesh/kiri_lip.h"
 #include "../sheet/kiri_seen.h"
 
-#include <string.h>
-
 /* A move of a blade is worked out first. Nothing in the world changes before all of it is known and room is made. */
 
 /* The points that one cut gets. */
@@ -183,7 +181,7 @@ static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 
                               kiriVec2* lip)
 {
     const kiriMeshData* mesh = &work->sheet->mesh;
-    for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+    KIRI_FROM_TO(h, 3 * triangle, 3 * triangle + 3) {
         bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
         if (!isOutline && (which == OUTLINE || !kiriMesh_IsOpen(mesh, h))) {
             continue;
@@ -226,7 +224,7 @@ static bool FindPending(const BladeWork* work, int32_t first, int32_t except, ki
 {
     bool isFound = false;
     KIRI_ASSERT(first >= 0 && first <= work->pending.count);
-    for (int32_t i = first; i < work->pending.count; ++i) {
+    KIRI_FROM_TO(i, first, work->pending.count) {
         const PendingLip* lip = &work->pending.data[i];
         kiriVec2 foot = FootOnWay(lip->from, lip->to, rest);
         double d = kiriVec2_Distance(foot, rest);
@@ -386,7 +384,7 @@ static kiriVec2 NearestInTriangle(const kiriVec2 corner[3], kiriVec2 p, double s
 {
     kiriVec2 nearest = p;
     bool isIn = true;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         kiriVec2 a = corner[k], b = corner[(k + 1) % 3], foot = FootOnWay(a, b, p);
         if (kiriVec2_Cross(kiriVec2_Sub(b, a), kiriVec2_Sub(p, a)) < 0.0 &&
             (isIn || kiriVec2_Distance(foot, p) < kiriVec2_Distance(nearest, p))) {
@@ -417,7 +415,7 @@ static void FindPlace(const BladeWork* work, Track* track)
         const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
         double shares[3], off = kiriVec2_Distance(NearestInTriangle(corner, track->rest, shares), track->rest);
         kiriVec3 seen = kiriSurface_Blend(surface, v, shares), came = { 0 };
-        for (int k = 0; k < 3; ++k) {
+        KIRI_TIMES(k, 3) {
             came = kiriVec3_AddScaled(came, work->ticks * shares[k], kiriSurface_Came(surface, v[k]));
         }
         kiriVec3 more = kiriVec3_Sub(kiriVec3_Sub(seen, track->at), came);
@@ -477,7 +475,7 @@ static bool FindLines(BladeWork* work)
         return false;
     }
     work->isKnown = work->ticks == 0 || (work->ticks == 1 && sheet->seen.surface.before.count > 0);
-    for (int32_t i = 0; i < work->oldCount; ++i) {
+    KIRI_TIMES(i, work->oldCount) {
         Track* track = &work->tracks.data[i];
         if (track->sheet == sheet) {
             FindPlace(work, track);
@@ -529,7 +527,7 @@ static Track* NearestLost(const BladeWork* work, const Track* except, kiriVec2 r
 {
     Track* nearest = NULL;
     KIRI_ASSERT(work->oldCount <= work->tracks.count);
-    for (int32_t i = 0; i < work->oldCount; ++i) {
+    KIRI_TIMES(i, work->oldCount) {
         Track* track = &work->tracks.data[i];
         double d = kiriVec2_Distance(track->rest, rest);
         if (track->sheet == work->sheet && track->isLost && track != except && (except == NULL || !track->isOver) &&
@@ -670,10 +668,10 @@ static bool StepThroughSheet(BladeWork* work)
     bool ok = FindLines(work);
     DropPoints(work);
     int32_t layers = work->crossings = 0;
-    for (int32_t i = 0; ok && i < 2 * work->section.lines.count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, 2 * work->section.lines.count) {
         work->crossings += work->section.lines.data[i / 2].end[i % 2] == KIRI_END_TO;
     }
-    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+    KIRI_TIMES_WHILE(ok, i, work->oldCount) {
         layers += work->tracks.data[i].sheet == work->sheet;
     }
     work->isMessy = work->crossings + layers > MANY;
@@ -682,8 +680,8 @@ static bool StepThroughSheet(BladeWork* work)
     KIRI_EACH_INDEX_WHILE(ok, i, work->taker) {
         work->taker.data[i] = KIRI_NONE;
     }
-    for (int pass = 0; pass < 2; ++pass) { /* the ends beside a track, then others */
-        for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+    KIRI_TIMES(pass, 2) { /* the ends beside a track, then others */
+        KIRI_TIMES_WHILE(ok, i, work->oldCount) {
             Track* track = &work->tracks.data[i];
             double far = work->joins ? work->unseen : FOUND * work->snap + kiriVec3_Length(track->more);
             track->isLost |= track->sheet == sheet && pass == 0;
@@ -692,13 +690,13 @@ static bool StepThroughSheet(BladeWork* work)
             }
         }
     }
-    for (int pass = 0; pass < 2; ++pass) { /* lines that a track goes on along, then others */
+    KIRI_TIMES(pass, 2) { /* lines that a track goes on along, then others */
         KIRI_EACH_INDEX_WHILE(ok, i, work->section.lines) {
             bool isTaken = work->taker.data[2 * i] != KIRI_NONE || work->taker.data[2 * i + 1] != KIRI_NONE;
             ok = isTaken != (pass == 0) || FollowLine(work, i);
         }
     }
-    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+    KIRI_TIMES_WHILE(ok, i, work->oldCount) {
         Track* track = &work->tracks.data[i];
         ok = track->sheet != sheet || !track->isLost || track->isOver || EndLost(work, track);
     }
@@ -852,8 +850,8 @@ static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeDa
         steps += (int32_t)(10.0 * skew);
         steps = kiriMin(steps, MOST_STEPS);
     }
-    for (int32_t i = 0; ok && i < steps; ++i) {
-        for (int k = 0; k < 2; ++k) {
+    KIRI_TIMES_WHILE(ok, i, steps) {
+        KIRI_TIMES(k, 2) {
             work->was[k] = blade->isPlaced ? Towards(blade->edge[k], to[k], (double)i / steps) : to[k];
             work->is[k] = blade->isPlaced ? Towards(blade->edge[k], to[k], (double)(i + 1) / steps) : to[k];
         }
@@ -907,7 +905,7 @@ static bool MakeCuts(kiriWorld* world, BladeWork* work, CutList* made)
             }
         }
     }
-    for (int32_t i = 0; !ok && i < made->count; ++i) {
+    KIRI_TIMES_WHILE(!ok, i, made->count) {
         kiriMemory_Free(&world->memory, made->data[i]);
     }
     return ok;
@@ -961,7 +959,7 @@ kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 
 {
     const kiriVec3 edge[2] = { from, to };
     BladeWork work;
-    memset(&work, 0, sizeof(work));
+    KIRI_CLEAR(&work);
     work.memory = kiriMemory_Like(&world->memory);
     kiriResult result = KIRI_ERROR_MEMORY;
     if (ListPending(&work, world, blade) && StartTracks(&work, world, blade) && TakeSteps(&work, world, blade, edge)) {

@@ -6,7 +6,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* ---- Faults ------------------------------------------------------------------------------------------------------ */
 
@@ -78,10 +77,10 @@ static kiriVec2 OutlineCorner(const kiriObstacleDef* def, int32_t i)
 /* Tests that every corner lies to the left of every edge, but for rounding of floats, and that no edge is a point. */
 static bool IsConvex(const kiriObstacleDef* def)
 {
-    for (int32_t i = 0; i < def->outlineCount; ++i) {
+    KIRI_TIMES(i, def->outlineCount) {
         kiriVec2 a = OutlineCorner(def, i), along = kiriVec2_Sub(OutlineCorner(def, i + 1), a);
         double length = kiriVec2_Length(along), farthest = 0.0;
-        for (int32_t k = 0; k < def->outlineCount; ++k) {
+        KIRI_TIMES(k, def->outlineCount) {
             kiriVec2 way = kiriVec2_Sub(OutlineCorner(def, k), a);
             double left = kiriVec2_Cross(along, way);
             if (left < -1e-5 * length * kiriVec2_Length(way)) {

@@ -49,7 +49,7 @@ static void Draw(Drawing* drawing, const kiriVec3* corners, int32_t count, uint3
     if (batch->count + count > BATCH_VERTICES) {
         FlushBatch(drawing, batch);
     }
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriDrawVertex* vertex = &batch->vertices[batch->count++];
         kiriVec3_Store(vertex->position, corners[i]);
         vertex->color = color;
@@ -123,7 +123,7 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
 {
     KIRI_ASSERT(first >= 0 && first % BOXES_A_PASS == 0);
     kiriBox boxes[BOXES_A_PASS];
-    for (int32_t i = 0; i < BOXES_A_PASS; ++i) {
+    KIRI_TIMES(i, BOXES_A_PASS) {
         boxes[i] = KIRI_EMPTY_BOX;
     }
     KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
@@ -132,8 +132,8 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
             kiriBox_Add(&boxes[piece - first], kiriSurface_DrawnAt(&sheet->seen.surface, v));
         }
     }
-    for (int32_t i = 0; i < BOXES_A_PASS; ++i) {
-        for (int edge = 0; boxes[i].lower.x <= boxes[i].upper.x && edge < 24; ++edge) {
+    KIRI_TIMES(i, BOXES_A_PASS) {
+        KIRI_TIMES_WHILE(boxes[i].lower.x <= boxes[i].upper.x, edge, 24) {
             int corner = edge / 3, bit = 1 << edge % 3;
             if ((corner & bit) == 0) {
                 DrawLine(drawing, CornerOfBox(&boxes[i], corner), CornerOfBox(&boxes[i], corner | bit),
@@ -228,7 +228,7 @@ static kiriVec2 CornerOf(const kiriObstacleShape* shape, double radius, int32_t 
 static void DrawRoundEnds(Drawing* drawing, const kiriObstacleData* obstacle, double half)
 {
     double radius = obstacle->shape.radius;
-    for (int32_t i = 0; i < CIRCLE_SIDES / 2; ++i) {
+    KIRI_TIMES(i, CIRCLE_SIDES / 2) {
         kiriVec2 a = kiriVec2_Scale(radius, kiriCircle_At(i, CIRCLE_SIDES));
         kiriVec2 b = kiriVec2_Scale(radius, kiriCircle_At(i + 1, CIRCLE_SIDES));
         for (int side = -1; side <= 1; side += 2) {
@@ -247,7 +247,7 @@ static void DrawObstacle(Drawing* drawing, const kiriObstacleData* obstacle)
     double endless = 10.0 * drawing->size, half = shape->half < KIRI_ENDLESS ? shape->half : endless;
     double radius = isPlane ? sqrt(2.0) * endless : shape->radius;
     int32_t sides = shape->count > 0 ? shape->count : isPlane ? 4 : CIRCLE_SIDES;
-    for (int32_t i = 0; i < sides; ++i) {
+    KIRI_TIMES(i, sides) {
         kiriVec2 a = CornerOf(shape, radius, i, sides), b = CornerOf(shape, radius, i + 1, sides);
         for (int side = half > 0.0 ? -1 : 1; side <= 1; side += 2) {
             DrawLocal(drawing, obstacle, kiriVec3_Make(a.x, a.y, side * half), kiriVec3_Make(b.x, b.y, side * half));
@@ -301,7 +301,7 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
     drawing.flags = draw->flags;
     drawing.size = draw->size;
     kiriDrawFn* const functions[3] = { draw->points, draw->lines, draw->triangles };
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         drawing.batches[i].draw = functions[i];
         drawing.batches[i].count = 0;
     }
@@ -322,7 +322,7 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
             Draw(&drawing, &layer->at, 1, Color(0, 0, 0));
         }
     }
-    for (int i = 0; i < 3; ++i) {
+    KIRI_TIMES(i, 3) {
         FlushBatch(&drawing, &drawing.batches[i]);
     }
 }

@@ -18,7 +18,7 @@ bool kiriIslands_FindClusters(kiriWorld* world)
         return false;
     }
     kiriUnion_Init(islands->clusters.data, count);
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         islands->isJoined.data[i] = 0;
         world->sheets.data[i]->probes.sheet = i;
     }
@@ -127,7 +127,7 @@ static void JoinStitches(kiriWorld* world, double dt)
             kiriSheetData* sheets[2] = { NULL, NULL };
             bool isMoved = kiriSeam_WriteRow(world, seam, k, dt, sheets);
             row->body = KIRI_NONE;
-            for (int end = 0; isMoved && end < 2; ++end) {
+            KIRI_TIMES_WHILE(isMoved, end, 2) {
                 if (sheets[end] != NULL) {
                     KIRI_ASSERT(row->counts[end] > 0);
                     int32_t frame = row->members[end * row->counts[0]].frame;
@@ -176,7 +176,7 @@ static int32_t ListIslands(kiriWorld* world)
             islands->islands.data[islands->numbers.data[b]].bodies.count += 1;
         }
     }
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         islands->islands.data[n].bodies.first = bodies;
         bodies += islands->islands.data[n].bodies.count;
         islands->islands.data[n].bodies.count = islands->islands.data[n].iterations = 0;
@@ -208,11 +208,11 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
     bool ok = kiriArrays_Resize(memory, count, &islands->parents, &islands->numbers, &islands->bodies) &&
               (had >= count || kiriArray_Resize(memory, &islands->islands, count));
     for (int32_t n = had; ok && n < islands->islands.count; ++n) {
-        memset(&islands->islands.data[n], 0, sizeof(kiriIsland));
+        KIRI_CLEAR(&islands->islands.data[n]);
     }
     if (ok) {
         kiriUnion_Init(islands->parents.data, count);
-        for (int32_t b = 0; b < count; ++b) {
+        KIRI_TIMES(b, count) {
             islands->numbers.data[b] = KIRI_NONE;
         }
         JoinRows(world);
@@ -220,7 +220,7 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
         islands->count = ListIslands(world);
         ListStitches(world);
     }
-    for (int32_t n = 0; ok && n < islands->count; ++n) {
+    KIRI_TIMES_WHILE(ok, n, islands->count) {
         kiriIsland* island = &islands->islands.data[n];
         const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
         island->solver = bodies[0].solver;
@@ -297,7 +297,7 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
             }
             KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
             int64_t each = WorkAt(world, i, *at);
-            for (int32_t k = 0; k < solved; ++k) {
+            KIRI_TIMES(k, solved) {
                 work[k] += each;
             }
         }
@@ -330,7 +330,7 @@ static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, i
     const kiriIslands* islands = &world->islands;
     int64_t items = ItemsOfCluster(world, cluster), left = kiriMotion_SystemsLeft(systems, items);
     substeps = left < substeps ? (int32_t)left : substeps;
-    for (int32_t s = 0; s < substeps; ++s) {
+    KIRI_TIMES(s, substeps) {
         int64_t work[KIRI_MOST_ROUNDS] = { 0 };
         for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
             if (!world->sheets.data[i]->rest.asleep) {

@@ -8,8 +8,6 @@
 #include "../sheet/kiri_update.h"
 #include "kiri_island.h"
 
-#include <string.h>
-
 /* ---- Pins on obstacles ---- */
 
 kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData* pin)
@@ -82,7 +80,7 @@ static void BeginPins(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
     KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
-        memset(&anchor->give, 0, sizeof(anchor->give));
+        KIRI_CLEAR(&anchor->give);
         anchor->most = anchor->softness = 0.0;
         anchor->way = kiriVec3_Make(0.0, 0.0, 0.0);
         BeginPin(world, sheet, i, dt);
@@ -352,7 +350,7 @@ static void LookForTouches(int32_t start, int32_t end, void* context)
 {
     const TouchSearch* looking = context;
     const kiriWorld* world = looking->world;
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         for (int32_t i = k; i < world->sheets.count; i += world->searches.count) {
             TryTouchesOf(looking, &world->searches.data[k], world->sheets.data[i]);
         }
@@ -374,10 +372,10 @@ static bool LookInTasks(TouchSearch* looking)
     if (made < wanted && !kiriArray_Resize(&world->memory, &world->searches, wanted)) {
         return false;
     }
-    for (int32_t k = made; k < wanted; ++k) {
-        memset(&world->searches.data[k], 0, sizeof(kiriObstacleSearch));
+    KIRI_FROM_TO(k, made, wanted) {
+        KIRI_CLEAR(&world->searches.data[k]);
     }
-    for (int32_t k = 0; k < wanted; ++k) {
+    KIRI_TIMES(k, wanted) {
         ReadySearch(world, &world->searches.data[k], looking->dt);
     }
     kiriTasks_Run(&world->tasks, LookForTouches, wanted, 1, looking);
@@ -413,7 +411,7 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
 void kiriObstacles_Begin(kiriWorld* world)
 {
     KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
-        memset(&obstacle->impulse, 0, sizeof(kiriWrench));
+        KIRI_CLEAR(&obstacle->impulse);
         obstacle->contacts = 0;
     }
 }
@@ -458,7 +456,7 @@ static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 cen
         }
     }
     kiriRestLoad* load = &KIRI_NEXT(rests->on);
-    memset(load, 0, sizeof(*load));
+    KIRI_CLEAR(load);
     load->slot = slot;
     load->center = center;
     return load;
@@ -546,7 +544,7 @@ static bool ListMeets(kiriWorld* world, int32_t sheet)
     KIRI_EACH_WHILE(ok, const kiriTouch, touch, data->touches.found) {
         ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
     }
-    for (int n = 0; n < 2; ++n) {
+    KIRI_TIMES(n, 2) {
         KIRI_EACH_WHILE(ok, const kiriTouch, touch, memories[n]->touches) {
             ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
         }
@@ -576,7 +574,7 @@ static bool JoinByBodies(kiriWorld* world)
         !kiriSort_Order(&world->memory, &moves->order, moves->meets.count, HasLowerNumber, moves->meets.data)) {
         return false;
     }
-    for (int32_t k = 1; k < moves->order.count; ++k) {
+    KIRI_FROM_TO(k, 1, moves->order.count) {
         const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
         if (a->number == b->number) {
             kiriUnion_Join(moves->parent.data, a->sheet, b->sheet);
@@ -597,7 +595,7 @@ bool kiriMoves_Prepare(kiriWorld* world)
     if (!kiriIslands_FindClusters(world)) {
         return false;
     }
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
         if (cluster != KIRI_NONE) {
             kiriUnion_Join(moves->parent.data, i, cluster);
@@ -677,7 +675,7 @@ static void MoveGroups(int32_t start, int32_t end, void* context)
 {
     const MoveTask* task = context;
     const kiriMoves* moves = &task->world->moves;
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         for (int32_t i = moves->heads.data[k]; i != KIRI_NONE; i = moves->of.data[i].next) {
             MoveSheet(task, i);
         }
@@ -719,10 +717,10 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
 {
     kiriMoves* moves = &world->moves;
     moves->heads.count = 0;
-    for (int32_t k = first; k < end; ++k) {
+    KIRI_FROM_TO(k, first, end) {
         moves->of.data[kiriUnion_Root(moves->parent.data, kiriMoves_SheetAt(world, world->turn, k))].tail = KIRI_NONE;
     }
-    for (int32_t k = first; k < end; ++k) {
+    KIRI_FROM_TO(k, first, end) {
         int32_t i = kiriMoves_SheetAt(world, world->turn, k);
         int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
         if (*tail == KIRI_NONE) {
@@ -759,7 +757,7 @@ void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* sys
         end = EndOfWave(&task, first);
         ListGroups(world, first, end);
         kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
-        for (int32_t k = first; k < end; ++k) {
+        KIRI_FROM_TO(k, first, end) {
             EndMoved(&task, kiriMoves_SheetAt(world, world->turn, k), systems);
         }
     }
@@ -836,7 +834,7 @@ static void Relax(const SkinTask* task, kiriSheetData* sheet, const kiriTasks* t
 static void BeginSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (StoodStill(task->world, k)) {
             continue;
@@ -864,7 +862,7 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
 static void RunRanges(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         kiriSkinRange range = task->world->skinRanges.data[k];
         task->run(task->world->sheets.data[range.sheet], range.begin, range.end);
     }
@@ -874,7 +872,7 @@ static void SumSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     const kiriTasks none = { NULL, NULL, NULL, 0 };
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (IsInRanges(task->world, k)) {
             if (!IsLarge(sheet)) {
@@ -888,7 +886,7 @@ static void SumSheets(int32_t start, int32_t end, void* context)
 static void EndSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
-    for (int32_t k = start; k < end; ++k) {
+    KIRI_FROM_TO(k, start, end) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (IsInRanges(task->world, k)) {
             kiriView_EndWriting(sheet);

@@ -8,8 +8,6 @@
 #include "../sheet/kiri_update.h"
 #include "../sheet/kiri_motion.h"
 
-#include <string.h>
-
 #define PUSH_SPEED 0.5       /* m/s: limit of the speed at which surfaces that are too close separate, */
 #define FOLD_PUSH_SPEED 0.05 /* and of the same piece: a fold that is in its own way must not gain energy */
 
@@ -48,7 +46,7 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
     kiriSheetData* sheet = pair->upper.sheet;
     const kiriSettings *a = &sheet->settings, *b = &pair->lower.sheet->settings;
     kiriTouch touch;
-    memset(&touch, 0, sizeof(touch));
+    KIRI_CLEAR(&touch);
     touch.key = pair->key;
     touch.point = touch.yield = KIRI_NONE;
     memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
@@ -326,7 +324,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
             }
         }
     }
-    for (int isGiven = 0; isGiven < 2; ++isGiven) {
+    KIRI_TIMES(isGiven, 2) {
         KIRI_EACH_INDEX(k, world->active) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
             KIRI_EACH_INDEX(p, sheet->layout.pieces) {
@@ -385,9 +383,9 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
-    for (int32_t p = 0; p < count; ++p) {
+    KIRI_TIMES(p, count) {
         kiriBody body;
-        memset(&body, 0, sizeof(body));
+        KIRI_CLEAR(&body);
         body.sheet = sheet;
         body.piece = p;
         body.id = sheet->frames.data[sheet->layout.pieces.data[p].frame].id;
@@ -437,7 +435,7 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
 static bool FindWaking(kiriWorld* world, Waking* waking)
 {
     bool ok = true;
-    memset(waking, 0, sizeof(*waking));
+    KIRI_CLEAR(waking);
     KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (TakesPart(sheet) && !sheet->rest.asleep) {
@@ -589,7 +587,7 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
     const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
     const kiriSurface* surface = &sheet->seen.surface;
     double least = HUGE_VAL;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         kiriVec3 from = kiriSurface_At(surface, t->vertex[k]), to = kiriSurface_At(surface, t->vertex[(k + 1) % 3]);
         kiriVec3 apex = kiriSurface_At(surface, t->vertex[(k + 2) % 3]), edge = kiriVec3_Sub(to, from);
         double area = kiriVec3_Length(kiriVec3_Cross(edge, kiriVec3_Sub(apex, from)));
@@ -677,7 +675,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     kiriIndexSpan probes = ProbesOf(a);
     kiriBox box = Widened(&b->box, reach);
     bool ok = true;
-    for (int32_t i = 0; ok && i < probes.count; ++i) {
+    KIRI_TIMES_WHILE(ok, i, probes.count) {
         kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
         if (!Holds(&box, x)) {
@@ -722,7 +720,7 @@ static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower,
 {
     const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
     double sum = 0.0;
-    for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
+    KIRI_FROM_TO(i, nears.first, nears.first + nears.count) {
         const kiriNear* near = &pairs->nears.data[i];
         double above = Above(pairs, near, dt);
         sum += near->body == lower ? -above * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) : above;
@@ -766,7 +764,7 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
 {
     const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
+    KIRI_FROM_TO(i, nears.first, nears.first + nears.count) {
         const kiriNear* near = &world->pairs.nears.data[i];
         sum = kiriVec3_Add(sum, near->body == lower ? kiriVertex_SkinNormal(sheet, near->vertex) : near->normal);
     }
@@ -866,7 +864,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
     KIRI_EACH_INDEX(i, pairs->order) {
         int32_t a = pairs->order.data[i];
         double end = pairs->bodies.data[a].box.upper.x + reach;
-        for (int32_t k = i + 1; k < pairs->order.count; ++k) {
+        KIRI_FROM_TO(k, i + 1, pairs->order.count) {
             int32_t b = pairs->order.data[k];
             if (pairs->bodies.data[b].box.lower.x > end) {
                 break;
@@ -901,18 +899,18 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
     kiriSpan own = skin->spans.data[near->vertex];
     kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
     double shared = 0.0;
-    for (int c = 0; c < 3; ++c) {
+    KIRI_TIMES(c, 3) {
         apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
     }
     double rest = sqrt(kiriVec2_Dot(apart, apart));
     if (off >= OPEN * rest) {
         return 0.0;
     }
-    for (int32_t k = own.first; k < own.first + own.count; ++k) {
+    KIRI_FROM_TO(k, own.first, own.first + own.count) {
         double there = 0.0;
-        for (int c = 0; c < 3; ++c) {
+        KIRI_TIMES(c, 3) {
             kiriSpan other = skin->spans.data[corners[c]];
-            for (int32_t n = other.first; n < other.first + other.count; ++n) {
+            KIRI_FROM_TO(n, other.first, other.first + other.count) {
                 const kiriSampleWeight* weight = &skin->weights.data[n];
                 there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
             }
@@ -960,7 +958,7 @@ static void MarkFold(kiriSheetData* sheet, const kiriNear* near)
     KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
     const int32_t* corners = &sheet->seen.surface.indices.data[3 * (size_t)near->triangle];
     sheet->probes.marks.data[near->vertex] |= KIRI_FOLD_NEAR;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         sheet->probes.marks.data[corners[k]] |= KIRI_FOLD_NEAR;
     }
 }
@@ -990,7 +988,7 @@ static bool FindLayers(FoldSearch* search, double dt)
         kiriBounds_Nearest(sheet->seen.bounds, &sheet->seen.surface, group,
                            kiriSurface_At(&sheet->seen.surface, none.vertex), reach * reach, LookAtLayer, search);
         probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
-        for (int k = 0; ok && k < 2; ++k) {
+        KIRI_TIMES_WHILE(ok, k, 2) {
             if (search->found[k].triangle != KIRI_NONE) {
                 int place = search->found[k].height >= 0.0 ? KIRI_FOLD_ABOVE : KIRI_FOLD_BELOW;
                 MarkFold(sheet, &search->found[k]);
@@ -1028,7 +1026,7 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     KIRI_ASSERT(edge >= 0 && edge < 3 * sheet->mesh.triangles.count);
     slope = slope >= 0.0 ? kiriMax(slope, GRAZING) : kiriMin(slope, -GRAZING);
-    for (int n = 0; n < 2; ++n) {
+    KIRI_TIMES(n, 2) {
         int32_t h = n == 0 ? edge : kiriMesh_IsOpen(&sheet->mesh, edge) ? KIRI_NONE : kiriMesh_Twin(&sheet->mesh, edge);
         if (h != KIRI_NONE) {
             int32_t apex = kiriMesh_TriangleOf(&sheet->mesh, h)->vertex[(h % 3 + 2) % 3];
@@ -1062,7 +1060,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
     kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
     bool areApart = true;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_TIMES(k, 3) {
         corner[k] = kiriSurface_At(surface, c[k]);
         areApart = areApart && c[k] != search->a && c[k] != search->b;
     }
@@ -1100,7 +1098,7 @@ static bool TouchTangles(FoldSearch* search)
     const kiriSurface* surface = &sheet->seen.surface;
     const uint8_t* marks = sheet->probes.marks.data;
     kiriGroup group = { sheet->probes.vertexPiece.data, search->body.piece };
-    for (int32_t h = 0; search->ok && h < 3 * sheet->mesh.triangles.count; ++h) {
+    KIRI_TIMES_WHILE(search->ok, h, 3 * sheet->mesh.triangles.count) {
         bool isOpen = kiriMesh_IsOpen(&sheet->mesh, h);
         search->edge = h;
         search->a = kiriMesh_Tail(&sheet->mesh, h);
@@ -1186,7 +1184,7 @@ static bool TouchFolds(kiriWorld* world, double dt)
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (!sheet->rest.asleep) {
             ok = BeginFolds(sheet);
-            for (int32_t p = 0; ok && sheet->probes.folds && p < sheet->layout.pieces.count; ++p) {
+            KIRI_TIMES_WHILE(ok && sheet->probes.folds, p, sheet->layout.pieces.count) {
                 ok = !kiriPiece_Folds(sheet, p) || TouchFold(world, sheet, p, dt);
             }
         }

@@ -8,8 +8,6 @@
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_touch.h"
 
-#include <string.h>
-
 /* A sheet that loses pieces. */
 typedef struct PartSource {
     kiriDetach detach;
@@ -38,7 +36,7 @@ typedef struct Parting {
 /* Makes room for `sheets` sources. False for memory. Call EndParting in any case. */
 static bool StartParting(Parting* parting, kiriWorld* world, int32_t sheets)
 {
-    memset(parting, 0, sizeof(*parting));
+    KIRI_CLEAR(parting);
     parting->world = world;
     parting->memory = kiriMemory_Like(&world->memory);
     return kiriArray_ReserveJust(&parting->memory, &parting->sources, sheets);
@@ -58,7 +56,7 @@ static void EndParting(Parting* parting)
 static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 {
     PartSource* source = &KIRI_NEXT(parting->sources);
-    memset(source, 0, sizeof(*source));
+    KIRI_CLEAR(source);
     if (!kiriDetach_Init(&source->detach, sheet)) {
         return NULL;
     }
@@ -88,7 +86,7 @@ static int32_t PieceOfFrame(const kiriWorld* world, kiriFrame frame)
 /* Marks the pieces of frames to leave, and lists each once. False for memory. */
 static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
 {
-    for (int32_t i = 0; i < count; ++i) {
+    KIRI_TIMES(i, count) {
         kiriSheetData* sheet = kiriPool_Find(&parting->world->frameIds, frames[i])->owner;
         PartSource* source = FindSource(parting, sheet);
         Part part = { source != NULL ? source : AddSource(parting, sheet), frames[i], NULL,
@@ -381,14 +379,14 @@ kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
     if (result != KIRI_OK || count == KIRI_NONE) {
         return result;
     }
-    for (int32_t k = 0; k < count; ++k) {
+    KIRI_TIMES(k, count) {
         const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
         kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
         event->frame = sheet->leaving.data[k];
         event->area = (float)part->layout.pieces.data[0].area;
         world->newEvents += 1;
     }
-    for (int32_t k = count; k < sheet->leaving.count; ++k) {
+    KIRI_FROM_TO(k, count, sheet->leaving.count) {
         sheet->leaving.data[k - count] = sheet->leaving.data[k];
     }
     KIRI_ASSERT(count <= sheet->leaving.count);
@@ -476,7 +474,7 @@ kiriResult kiriParts_TakeOut(kiriWorld* world, const kiriFrame* frames, int32_t 
     if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
         result = !LeavesSome(&parting) ? KIRI_ERROR_STATE : ids != NULL ? Detach(&parting) : Destroy(&parting);
     }
-    for (int32_t i = 0; ids != NULL && result >= 0 && i < count; ++i) {
+    KIRI_TIMES_WHILE(ids != NULL && result >= 0, i, count) {
         const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
         ids[i] = FindSource(&parting, sheet) != NULL ? 0 : sheet->id; /* else the frame would have left it */
     }

@@ -3,7 +3,6 @@
 #include "kiri_state.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static const uint8_t magic[KIRI_RECORD_MAGIC_BYTES] = { 'K', 'i', 'r', 'i', 'R', 'e', 'c', '\n' };
 
@@ -270,7 +269,7 @@ static void CodeArray(Coder* coder, const kiriValue* value, const void** at)
             StopReading(coder, READ_DAMAGED);
         }
     }
-    for (int32_t i = 0; at[0] != NULL && i < *count; ++i) {
+    KIRI_TIMES_WHILE(at[0] != NULL, i, *count) {
         CodeValue(coder, value->item, (char*)at[0] + (int64_t)i * BytesOf(value->item));
     }
 }
@@ -301,7 +300,7 @@ static void CodeArguments(Coder* coder, const kiriCallRow* row, const void* at[]
 /* Returns the ids, or the number, that the call writes, and their count. */
 static uint32_t* FindNew(const kiriCallRow* row, const void* const at[], int32_t* count)
 {
-    for (int i = 0; i < KIRI_CALL_ARGUMENTS; ++i) {
+    KIRI_TIMES(i, KIRI_CALL_ARGUMENTS) {
         kiriForm form = kiriArguments[row->kinds[i]].form;
         if (form == KIRI_FORM_NEW || form == KIRI_FORM_NEWS) {
             *count = form == KIRI_FORM_NEW ? 1 : *(const int32_t*)at[i - 1];
@@ -324,7 +323,7 @@ static void CodeOutcome(Coder* coder, int32_t number, Outcome* outcome)
 {
     KIRI_ASSERT(outcome->madeCount <= 0 || outcome->made != NULL);
     CodeInt(coder, &outcome->result);
-    for (int32_t i = 0; outcome->result >= 0 && i < outcome->madeCount; ++i) {
+    KIRI_TIMES_WHILE(outcome->result >= 0, i, outcome->madeCount) {
         CodeId(coder, &outcome->made[i]);
     }
     if (number == KIRI_CALL_World_Tick || number == KIRI_CALL_DestroyWorld) {
@@ -385,7 +384,7 @@ static void RecordWhole(kiriWorld* world, int32_t number, const void* const argu
 static void CodeStart(Coder* coder)
 {
     uint64_t format = KIRI_RECORD_VERSION, library = KIRI_VERSION;
-    for (int i = 0; i < KIRI_RECORD_MAGIC_BYTES; ++i) {
+    KIRI_TIMES(i, KIRI_RECORD_MAGIC_BYTES) {
         uint8_t byte = magic[i];
         CodeByte(coder, &byte);
         if (byte != magic[i]) {
@@ -434,7 +433,7 @@ typedef struct Recorded {
 
 static void ReadCall(Coder* coder, Recorded* recorded, bool isFirst)
 {
-    memset(recorded, 0, sizeof(*recorded));
+    KIRI_CLEAR(recorded);
     CodeUnsigned(coder, &recorded->number);
     if (recorded->number >= KIRI_CALL_COUNT) {
         StopReading(coder, READ_DAMAGED);
@@ -472,7 +471,7 @@ static const char* FindDifference(const kiriWorld* world, const Recorded* record
     }
     int32_t count;
     const uint32_t* made = FindNew(recorded->row, recorded->arguments, &count);
-    for (int32_t i = 0; result >= 0 && i < count; ++i) {
+    KIRI_TIMES_WHILE(result >= 0, i, count) {
         if (made[i] != then->made[i]) {
             return "makes other ids than recorded";
         }

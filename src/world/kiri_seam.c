@@ -2,8 +2,6 @@
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_touch.h"
 
-#include <string.h>
-
 #define STITCH_STIFFNESS 100.0   /* of a stitch, relative to Young's modulus times thickness: more resists no pull, */
 #define SQUARED_PITCH 5e7 /* 1/s^2: and of a frame on it. It sinks by 2e-7 m under its weight, */
 #define STIFF_PITCH 5e6   /* and by 2e-6 m where lips are arcs of other frames: these differ a little */
@@ -29,7 +27,7 @@ kiriSheetData* kiriStitch_Sheet(const kiriWorld* world, const kiriStitchData* st
 /* Wakes the pieces of a stitch that comes or goes. Their forces do not predict the next step. */
 static void WakeEnds(const kiriWorld* world, const kiriStitchData* stitch)
 {
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         const kiriSlot* slot = SlotOf(world, stitch, end);
         if (slot != NULL) {
             kiriSheetData* sheet = slot->owner;
@@ -57,7 +55,7 @@ void kiriSeams_Follow(kiriWorld* world)
 {
     KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
         KIRI_EACH(kiriStitchData, stitch, seam->stitches) {
-            for (int end = 0; end < 2; ++end) {
+            KIRI_TIMES(end, 2) {
                 const kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, end);
                 (void)(sheet != NULL && FollowEnd(sheet, stitch, end));
             }
@@ -70,17 +68,17 @@ void kiriSeams_Follow(kiriWorld* world)
 static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way, kiriWeight* weights, int32_t count)
 {
     double off[KIRI_CONTACT_WEIGHTS], mean = 0.0, spread = 0.0, last = 0.0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         off[n] = kiriVec2_Dot(kiriVec2_Sub(sheet->frames.data[weights[n].frame].center, point), way);
         mean += weights[n].value * off[n];
     }
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         off[n] = mean > 0.0 ? off[n] - mean : mean - off[n];
         spread += weights[n].value * off[n] * off[n];
         last = kiriMax(last, off[n]);
     }
     double slope = spread > 0.0 ? kiriMin(fabs(mean) / spread, 1.0 / last) : 0.0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         weights[n].value *= 1.0 - slope * off[n];
         KIRI_ASSERT(weights[n].value > -1e-9 && weights[n].value < 1.0 + 1e-9);
     }
@@ -100,10 +98,10 @@ static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch
     if (bends) {
         Straighten(sheet, point, kiriVec2_Make(-stitch->inward[end].y, stitch->inward[end].x), weights, count);
     }
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         rest = kiriVec2_AddScaled(rest, -weights[n].value, sheet->frames.data[weights[n].frame].center);
     }
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         kiriVec2 center = sheet->frames.data[weights[n].frame].center;
         kiriVec2 half = kiriVec2_Scale(0.5, kiriVec2_Add(kiriVec2_Add(center, point), rest));
         members[n] = (kiriContactMember){ weights[n].frame, weights[n].value, bends ? half : point };
@@ -114,7 +112,7 @@ static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch
 static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count)
 {
     kiriVec3 x = { 0 };
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         kiriVec3 carried = kiriFrame_Carry(&sheet->frames.data[members[n].frame], members[n].at);
         x = kiriVec3_AddScaled(x, members[n].value, carried);
     }
@@ -135,7 +133,7 @@ static kiriVec2 DirectionAt(double angle)
     KIRI_ASSERT(angle > -4.0 && angle < 4.0);
     double part = angle / (1 << ANGLE_HALVINGS);
     kiriVec2 at = { 1.0 - 0.5 * part * part, part };
-    for (int k = 0; k < ANGLE_HALVINGS; ++k) {
+    KIRI_TIMES(k, ANGLE_HALVINGS) {
         at = kiriVec2_Make(at.x * at.x - at.y * at.y, 2.0 * at.x * at.y);
     }
     return at;
@@ -147,7 +145,7 @@ static double AngleBetween(kiriVec3 a, kiriVec3 b)
     kiriVec3 one = kiriVec3_Normalize(a), other = kiriVec3_Normalize(b);
     double cosine = 0.5 * kiriVec3_Length(kiriVec3_Add(one, other)), sine = 0.5 * kiriVec3_Distance(one, other);
     double times = 2.0;
-    for (int k = 0; k < ANGLE_HALVINGS; ++k) { /* halves the angle */
+    KIRI_TIMES(k, ANGLE_HALVINGS) { /* halves the angle */
         cosine = kiriRoot(0.5 * (1.0 + cosine));
         sine *= 0.5 / cosine;
         times *= 2.0;
@@ -159,7 +157,7 @@ static double AngleBetween(kiriVec3 a, kiriVec3 b)
 static kiriVec3 BlendedWay(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count, kiriVec3 way)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         sum = kiriVec3_AddScaled(sum, members[n].value, kiriMat3_Mul(sheet->frames.data[members[n].frame].A, way));
     }
     return sum;
@@ -171,7 +169,7 @@ static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* member
 {
     const kiriMaterial* material = &sheet->settings.material;
     double thickness = material->thickness, nu = material->poissonsRatio, reach = 0.0;
-    for (int32_t n = 0; n < count; ++n) {
+    KIRI_TIMES(n, count) {
         kiriVec2 way = kiriVec2_Sub(sheet->frames.data[members[n].frame].center, from);
         reach += members[n].value * kiriVec2_Dot(way, inward);
     }
@@ -189,7 +187,7 @@ static kiriVec2 LinePoint(const float* line, int32_t i)
 static double LineLength(const float* line, int32_t count)
 {
     double length = 0.0;
-    for (int32_t i = 1; i < count; ++i) {
+    KIRI_FROM_TO(i, 1, count) {
         length += kiriVec2_Length(kiriVec2_Sub(LinePoint(line, i), LinePoint(line, i - 1)));
     }
     return length;
@@ -261,7 +259,7 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
     const int32_t counts[2] = { def->countA, def->countB };
     double lengths[2];
     bool isClosed = true;
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         lengths[end] = LineLength(lines[end], counts[end]);
         isClosed = isClosed && memcmp(lines[end], &lines[end][2 * (counts[end] - 1)], 2 * sizeof(float)) == 0;
     }
@@ -271,12 +269,12 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
         kiriStitchData* stitch = &seam->stitches.data[k];
         double part = (double)k / parts;
         bool isEnd = !isClosed && (k == 0 || k == parts);
-        memset(stitch, 0, sizeof(*stitch));
+        KIRI_CLEAR(stitch);
         stitch->number = k;
         stitch->next = k + 1 < count ? k + 1 : isClosed ? 0 : KIRI_NONE;
         stitch->share = isEnd ? 0.5 : 1.0;
         stitch->length = stitch->share / parts * 0.5 * (lengths[0] + lengths[1]);
-        for (int end = 0; end < 2; ++end) {
+        KIRI_TIMES(end, 2) {
             if (!PlaceEnd(sheets[end], lines[end], counts[end], part * lengths[end], stitch, end)) {
                 return end == 0 ? "def.lineA leaves the material" : "def.lineB leaves the material";
             }
@@ -408,7 +406,7 @@ bool kiriSeams_ListLines(kiriWorld* world)
         sheet->sewn.count = 0;
     }
     KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
-        for (int32_t k = 0; ok && k < 2 * seam->stitches.count; ++k) {
+        KIRI_TIMES_WHILE(ok, k, 2 * seam->stitches.count) {
             const kiriStitchData *all = seam->stitches.data, *from = &all[k / 2];
             const kiriStitchData* to = k / 2 + 1 < seam->stitches.count ? from + 1 : all;
             kiriSheetData* sheet = kiriStitch_Sheet(world, from, k % 2);
@@ -463,7 +461,7 @@ double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_
     kiriVec3 ways[3], seen[2], normal = { 0.0, 0.0, 0.0 };
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     FindWays(data, 0.0, ways);
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         kiriContactMember members[KIRI_CONTACT_WEIGHTS];
         const kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
         int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
@@ -485,9 +483,9 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
     kiriVec3 apart = { 0 }, seen[2];
     double mass = 0.0, stiffness = 0.0, give = 0.0;
     KIRI_ASSERT(seam->rows.capacity >= seam->stitches.count);
-    memset(row, 0, sizeof(*row));
+    KIRI_CLEAR(row);
     FindWays(data, seam->restAngle, row->ways);
-    for (int end = 0; end < 2; ++end) {
+    KIRI_TIMES(end, 2) {
         kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
         kiriContactMember members[KIRI_CONTACT_WEIGHTS];
         int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
@@ -508,7 +506,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
         row->solvers[end] = isMoved ? sheet->solver : NULL;
         row->counts[end] = isMoved ? count : 0;
         row->off = isMoved ? row->off : kiriVec3_Sub(row->off, x);
-        for (int32_t n = 0; isMoved && n < count; ++n) {
+        KIRI_TIMES_WHILE(isMoved, n, count) {
             kiriContactMember* member = &row->members[end * row->counts[0] + n];
             *member = members[n];
             member->value = end == 0 ? member->value : -member->value;

@@ -8,7 +8,6 @@
 #include "kiri_seam.h"
 
 #include <float.h>
-#include <string.h>
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
@@ -228,7 +227,7 @@ static bool IsPool(const kiriPool* pool, uint32_t kind)
 {
     bool isFine = pool->kind == kind && pool->freeCount >= 0;
     int32_t slot = pool->freeSlot;
-    for (int32_t k = 0; isFine && k < pool->freeCount; ++k) {
+    KIRI_TIMES_WHILE(isFine, k, pool->freeCount) {
         isFine = slot >= 0 && slot < pool->slots.count && pool->slots.data[slot].owner == NULL;
         slot = isFine ? pool->slots.data[slot].index : slot;
     }
@@ -245,7 +244,7 @@ static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
         const kiriSheetData* sheets[2];
         isFine = stitch->length > 0.0 && stitch->length <= (double)FLT_MAX && stitch->share > 0.0 &&
                  stitch->share <= 1.0;
-        for (int end = 0; isFine && end < 2; ++end) {
+        KIRI_TIMES_WHILE(isFine, end, 2) {
             sheets[end] = kiriStitch_Sheet(world, stitch, end);
             isFine = fabs(kiriVec2_Length(stitch->inward[end]) - 1.0) < 1e-6 && sheets[end] != NULL &&
                      !sheets[end]->settings.mechanics.planar &&

@@ -13,8 +13,6 @@
 #include "kiri_pair.h"
 #include "kiri_seam.h"
 
-#include <string.h>
-
 static void EnterStage(void* context, int32_t stage)
 {
     kiriWorld* world = context;
@@ -194,7 +192,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
     profile->pointsChanged += counts->points;
     profile->linksChanged += counts->links;
     profile->commits += 1;
-    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+    KIRI_FROM_TO(i, oldFrames, sheet->frames.count) {
         bool isGone = kiriSheet_IsGone(sheet, i);
         sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
@@ -206,7 +204,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
             event->area = (float)each->area;
         }
     }
-    for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
+    KIRI_FROM_TO(i, oldFrames, sheet->frames.count) {
         if (!kiriSheet_IsGone(sheet, i)) {
             kiriWorld_AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
         }
@@ -250,7 +248,7 @@ static void CommitMeshes(kiriWorld* world)
 static void TakeJumps(int32_t start, int32_t end, void* context)
 {
     const kiriWorld* world = context;
-    for (int32_t i = start; i < end; ++i) {
+    KIRI_FROM_TO(i, start, end) {
         if (world->blades.count > 0) {
             kiriSurface_Remember(&kiriWorld_Active(world, i)->seen.surface);
         }
@@ -459,7 +457,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     (void)kiriQuota_Pay(&quotas.of[KIRI_QUOTA_SAMPLES], &samplesDue);
     kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
-    memset(&world->profile, 0, sizeof(world->profile));
+    KIRI_CLEAR(&world->profile);
     world->atWork.count = 0;
     ListActive(world);
     kiriResult torn = kiriTears_Grow(world, dt);

@@ -152,7 +152,7 @@ void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut)
 kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet)
 {
     kiriEvent* event = &KIRI_NEXT(world->events);
-    memset(event, 0, sizeof(*event));
+    KIRI_CLEAR(event);
     event->type = type;
     event->sheet = sheet->id;
     event->stage = KIRI_NONE;
