@@ -229,9 +229,10 @@ static const kiriValue contactMembers[] = {
 #undef OF
 static const kiriStruct contactStruct = STRUCT_OF(kiriContact, 0, NULL, contactMembers);
 
-#define ID_IN(member, ids, ...)                                                                                        \
+#define ID_KIND(kind_) .kind = #kind_, .refers = (int32_t)offsetof(kiriWorld, kind_##Ids)
+#define ID_IN(member, kind_, ...)                                                                                      \
     {                                                                                                                  \
-        .form = KIRI_FORM_ID, NUMBERS_IN(member), .refers = (int32_t)offsetof(kiriWorld, ids), __VA_ARGS__             \
+        .form = KIRI_FORM_ID, NUMBERS_IN(member), ID_KIND(kind_), __VA_ARGS__                                          \
     }
 #define OF kiriPinDef
 static const kiriValue pinDefMembers[] = {
@@ -239,7 +240,7 @@ static const kiriValue pinDefMembers[] = {
     FLOATS_IN(target, ANY_FINITE),
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(breakForce, FROM_0),
-    ID_IN(obstacle, obstacleIds, .isOptional = true),
+    ID_IN(obstacle, obstacle, .isOptional = true),
 };
 #undef OF
 static const kiriStruct pinDefStruct =
@@ -247,8 +248,8 @@ static const kiriStruct pinDefStruct =
 
 #define OF kiriSeamDef
 static const kiriValue seamDefMembers[] = {
-    ID_IN(sheetA, sheetIds, .isOptional = false),
-    ID_IN(sheetB, sheetIds, .isOptional = false),
+    ID_IN(sheetA, sheet, .isOptional = false),
+    ID_IN(sheetB, sheet, .isOptional = false),
     INTS_IN(countA, WITHIN(2, 65536)),
     INTS_IN(countB, WITHIN(2, 65536)),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineA, 2, countA, ANY_FINITE),
@@ -375,7 +376,7 @@ static const kiriStruct obstacleDefStruct =
 
 #define ID_OF(kind, optional)                                                                                          \
     {                                                                                                                  \
-        .form = KIRI_FORM_ID, .name = #kind, .refers = (int32_t)offsetof(kiriWorld, kind##Ids), .isOptional = optional \
+        .form = KIRI_FORM_ID, ID_KIND(kind), .isOptional = optional                                                    \
     }
 #define FLOATS_OF(count_, ...)                                                                                         \
     {                                                                                                                  \
@@ -560,8 +561,7 @@ static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, con
         result = kiriStruct_Check(value->of, "", world, at, fault);
     } else if (value->form == KIRI_FORM_ID && !(value->isOptional && *(const uint32_t*)at == 0) &&
                FindById(value, world, at) == NULL) {
-        KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at,
-                 value->refers == (int32_t)offsetof(kiriWorld, sheetIds) ? "sheet" : value->name);
+        KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at, value->kind);
         result = KIRI_ERROR_ID;
     }
     const char* why = result == KIRI_OK && value->fault != NULL ? value->fault(at) : NULL;

@@ -166,7 +166,7 @@ struct kiriStruct;
 
 /* What an argument may be, or a member of a struct. */
 typedef struct kiriValue {
-    const char* name; /* name of the member; for ids the noun in the error line */
+    const char *name, *kind; /* name of the member; noun for an id in the error line */
     kiriForm form;
     int32_t count;    /* numbers; for arrays in structs: numbers an item */
     int32_t offset;   /* in the struct */
