@@ -342,6 +342,7 @@ static bool RunScript(const Options* options, kiriWorldDef* def)
     SceneOptions sceneOptions = { .dataFolder = options->data,
                                   .gridResolution = options->grid,
                                   .frameCount = options->controlFrames,
+                                  .collisionPoints = options->debug.points ? 200 : 0,
                                   .plain = options->plain,
                                   .asPaper = options->asPaper,
                                   .smooth = options->smooth };

@@ -33,7 +33,7 @@ void Options_PrintHelp(void)
            "  --regions             show where each frame has the largest weight\n"
            "  --links               show which regions touch\n"
            "  --cells               show the grid, and which of its squares the cuts divide\n"
-           "  --points              show the collision points\n"
+           "  --points              give sheets 200 collision points, and show them\n"
            "  --contacts            show contacts, obstacles, pins and blades of the world\n"
            "  --quiet               no progress line\n"
            "  --help\n\nScenes:\n");

@@ -23,6 +23,7 @@ typedef struct SceneOptions {
     const char* dataFolder;       /* null: samples/data */
     int32_t gridResolution;       /* 0: the scene's own */
     int32_t frameCount;           /* 0: the scene's own */
+    int32_t collisionPoints;      /* of each sheet */
     int32_t fromScratch, popping; /* of kiriPaperOptions */
     bool unfaded;                 /* fadeTime 0 */
     bool asPaper;                 /* mesh, grid and frames of the table 1 of the paper */

@@ -46,6 +46,7 @@ bool Scene_MakeSheet(Scene* scene, kiriSheetDef* def, const SceneOptions* option
         }
         def->skinning = options->smooth ? KIRI_SKINNING_SMOOTH : def->skinning;
         def->gridResolution = options->gridResolution > 0 ? options->gridResolution : def->gridResolution;
+        def->collisionPoints = options->collisionPoints;
         def->paper.fromScratch = options->fromScratch;
         def->paper.popping = options->popping;
         def->fadeTime = options->unfaded ? 0.0f : def->fadeTime;

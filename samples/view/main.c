@@ -185,6 +185,12 @@ static void TakeKey(Viewer* viewer, const GameEvent* event)
     }
 }
 
+static bool Step(Viewer* viewer)
+{
+    int32_t step = viewer->held != 0 ? viewer->held : viewer->isPlaying;
+    return step == 0 || GoTo(viewer, viewer->scene.tick + step);
+}
+
 static bool Show(Viewer* viewer, const char* path)
 {
     Window* window = Window_Open(path, WIDTH, HEIGHT, true);
@@ -201,8 +207,7 @@ static bool Show(Viewer* viewer, const char* path)
                 isFine = TakeMouse(viewer, &events[i]);
             }
         }
-        int32_t step = viewer->held != 0 ? viewer->held : viewer->isPlaying;
-        isFine = isFine && (step == 0 || GoTo(viewer, viewer->scene.tick + step)) && Draw(viewer);
+        isFine = isFine && Step(viewer) && Draw(viewer);
         if (isFine) {
             Window_Show(window, &viewer->image);
         }
@@ -213,11 +218,37 @@ static bool Show(Viewer* viewer, const char* path)
     return isFine;
 }
 
-/* Without a window: goes to each tick in turn, and writes its picture. */
+/* Presses the keys of a word: <, >, - and + are arrows. */
+static void PressKeys(Viewer* viewer, const char* keys)
+{
+    static const char arrows[] = "<>+-"; /* as the keys of game.h are numbered */
+    for (; *keys != '\0'; keys++) {
+        const char* arrow = strchr(arrows, *keys);
+        GameEvent event = { .type = GAME_KEY_PRESSED, .key = *keys };
+        if (arrow != NULL) {
+            event.key = GAME_KEY_LEFT + (int32_t)(arrow - arrows);
+        }
+        TakeKey(viewer, &event);
+    }
+}
+
+/* Without a window: goes to each tick in turn, presses its keys, and writes its picture. */
 static bool Write(Viewer* viewer, int count, char** words)
 {
+    const Options options = viewer->options;
+    const float away = viewer->away;
     for (int i = 0; i + 1 < count; i += 2) {
-        if (!GoTo(viewer, atoi(words[i])) || !Draw(viewer) || !Image_WritePng(&viewer->image, words[i + 1])) {
+        char* keys;
+        long tick = strtol(words[i], &keys, 10);
+        viewer->options = options;
+        viewer->away = away;
+        viewer->isPlaying = false;
+        viewer->held = 0;
+        if (!GoTo(viewer, (int32_t)tick)) {
+            return false;
+        }
+        PressKeys(viewer, keys);
+        if (!Step(viewer) || !Draw(viewer) || !Image_WritePng(&viewer->image, words[i + 1])) {
             fprintf(stderr, "cannot write %s\n", words[i + 1]);
             return false;
         }
@@ -231,8 +262,8 @@ int main(int count, char** words)
     if (count < 2 || count % 2 != 0) {
         fprintf(
             stderr,
-            "kiri-view FILE                    a recording or a save, in a window\n"
-            "kiri-view FILE [TICK PNG] ...     pictures of ticks, without a window\n\n"
+            "kiri-view FILE                        a recording or a save, in a window\n"
+            "kiri-view FILE [TICK[KEYS] PNG] ...   pictures of ticks after keys, without a window: 60rl, with arrows as <>+-\n\n"
             "Space plays and stops; left and right go by ticks, up and down nearer and away; the mouse turns, or drags the bar.\n"
             "R regions, L links, C cells, F frames, K contacts, O collision points, W weights, Escape.\n");
         return 2;
