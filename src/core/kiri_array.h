@@ -32,12 +32,13 @@ typedef KIRI_ARRAY(float) kiriFloats;
 
 /* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers: `item` is each of
    them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false.
-   KIRI_EACH_INDEX is for what needs the index. */
+   KIRI_EACH_INDEX is for what needs the index; _BACK goes from the last item to the first, which may be removed. */
 #define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
 #define KIRI_EACH_INDEX(i, array) KIRI_TIMES(i, (array).count)
 #define KIRI_EACH_INDEX_WHILE(condition, i, array) KIRI_TIMES_WHILE(condition, i, (array).count)
+#define KIRI_EACH_INDEX_BACK(i, array) for (int32_t i = (array).count - 1; i >= 0; --i)
 #define KIRI_EACH_OF(Type, item, array)                                                                                \
     for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
          ++item##At)
@@ -80,6 +81,9 @@ void kiriArray_Release(kiriMemory* memory, void* array);
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
 
+/* Makes room for `more` items behind those that there are. */
+#define kiriArray_ReserveMore(memory, array, more) kiriArray_Reserve(memory, array, (int64_t)(array)->count + (more))
+
 #define kiriArray_ReserveJust(memory, array, need)                                                                     \
     ((int64_t)(need) <= (array)->capacity || kiriArray_GrowTo((memory), (array), (need), sizeof(*(array)->data)))
 
@@ -92,8 +96,7 @@ void kiriArray_Release(kiriMemory* memory, void* array);
     (kiriArray_ReserveJust(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
 
 #define kiriArray_Push(memory, array, item)                                                                            \
-    (kiriArray_Reserve(memory, array, (int64_t)(array)->count + 1) ? ((array)->data[(array)->count++] = (item), true)  \
-                                                                   : false)
+    (kiriArray_ReserveMore(memory, array, 1) ? ((array)->data[(array)->count++] = (item), true) : false)
 
 /* Applies a macro to up to eight arguments. KIRI_ONCE_MORE is for the preprocessor of MSVC, which passes __VA_ARGS__ on
    as one argument. */

@@ -38,8 +38,9 @@ enum { KIRI_NONE = -1 };
 
 /* Loops: `i` goes from 0, or from `first`, up to and without `end`. */
 #define KIRI_TIMES(i, end) KIRI_FROM_TO(i, 0, end)
-#define KIRI_TIMES_WHILE(condition, i, end) for (int32_t i = 0; (condition) && i < (end); ++i)
+#define KIRI_TIMES_WHILE(condition, i, end) KIRI_FROM_TO_WHILE(condition, i, 0, end)
 #define KIRI_FROM_TO(i, first, end) for (int32_t i = (first); i < (end); ++i)
+#define KIRI_FROM_TO_WHILE(condition, i, first, end) for (int32_t i = (first); (condition) && i < (end); ++i)
 
 /* Sets all bytes of what a pointer points to to zero. */
 #define KIRI_CLEAR(pointer) memset(pointer, 0, sizeof(*(pointer)))

@@ -214,7 +214,7 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
             progress = OpenBucket(field, memory, rule, repairs);
             continue;
         }
-        if (!kiriArray_Reserve(memory, &field->settled, (int64_t)field->settled.count + 1)) {
+        if (!kiriArray_ReserveMore(memory, &field->settled, 1)) {
             return KIRI_FAILED;
         }
         kiriSeed value = ValueOf(field, list->data[--list->count]);

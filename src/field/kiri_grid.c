@@ -61,7 +61,7 @@ static void RecordCell(kiriGrid* grid, kiriMemory* memory, int32_t cell, uint8_t
 /* Records that a face came or goes: steps of its cells, and of cells around, may change. From scratch all are made. */
 static void RecordLink(kiriGrid* grid, kiriMemory* memory, const kiriFace* face)
 {
-    for (int k = 0; k < 2 && !grid->work->fromScratch; ++k) {
+    KIRI_TIMES_WHILE(!grid->work->fromScratch, k, 2) {
         KIRI_ASSERT(kiriGrid_IsCell(grid, face->cell[k]));
         int32_t square = grid->cells.data[face->cell[k]].square;
         RecordCell(grid, memory, face->cell[k], CELL_STEPS, &grid->changes.steps);
@@ -602,7 +602,7 @@ static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
         KIRI_ASSERT(*cell >= 0 && *cell < work->newCells.count);
         *cell = work->newCells.data[*cell].cell;
         const int32_t* corners = mesh->triangles.data[triangle].vertex;
-        for (int k = 0; k < 3 && work->newCells.count > 1; ++k) {
+        KIRI_TIMES_WHILE(work->newCells.count > 1, k, 3) {
             const kiriVertex* v = &mesh->vertices.data[corners[k]];
             if (v->edge / 3 == triangle && kiriSquares_At(&mesh->squares, v->at) == square) {
                 grid->vertexCell.data[corners[k]] = *cell;

@@ -645,7 +645,7 @@ static kiriVec2 FindBetweenOnEdge(const EndSearch* s, kiriVec2 a, double farA, k
 {
     kiriVec2 way = kiriVec2_Sub(b, a);
     double low = 0.0, high = 1.0;
-    for (int round = 0; round < 24 && farB != farA; ++round) {
+    KIRI_TIMES_WHILE(farB != farA, round, 24) {
         double at = high - farB * (high - low) / (farB - farA);
         double far = FartherAt(s, kiriVec2_AddScaled(a, at, way));
         if ((far > 0.0) != (farB > 0.0)) {
@@ -670,7 +670,7 @@ static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd*
     KIRI_ASSERT(s->reach[0].state == REACH_KNOWN && s->reach[1].state == REACH_KNOWN);
     double far = Farther(&s->reach[0], &s->reach[1], at, &slope), left = 3.0 * s->u->grid->side;
     bool ahead = far * kiriVec2_Dot(slope, kiriVec2_Sub(EdgeEnd(mesh, edge, true), EdgeEnd(mesh, edge, false))) < 0.0;
-    for (int steps = 0; steps < 32 && left > 0.0; ++steps) {
+    KIRI_TIMES_WHILE(left > 0.0, steps, 32) {
         kiriVec2 goal = EdgeEnd(mesh, edge, ahead);
         double goalFar = FartherAt(s, goal);
         if (far == 0.0 || (far > 0.0) != (goalFar > 0.0)) {
@@ -763,7 +763,7 @@ static bool FindReaches(EndSearch* s)
 {
     KIRI_EACH_INDEX(k, s->near) {
         bool takesPart = k < 2;
-        for (int r = 0; r < KIRI_CORNER_REGIONS && s->grid->kind == KIRI_END_CORNER; ++r) {
+        KIRI_TIMES_WHILE(s->grid->kind == KIRI_END_CORNER, r, KIRI_CORNER_REGIONS) {
             takesPart |= s->grid->region[r] == s->near.region[k];
         }
         if (takesPart && !FindReach(s, k, s->grid->look, true)) {

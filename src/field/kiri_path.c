@@ -69,7 +69,7 @@ static bool CollectEdges(const kiriSight* sight, int32_t square)
     bool ok = true;
     KIRI_EACH_NODE(n, &mesh->squares, square) {
         int32_t first = 3 * mesh->squares.nodes.data[n].triangle;
-        for (int32_t h = first; ok && h < first + 3; ++h) {
+        KIRI_FROM_TO_WHILE(ok, h, first, first + 3) {
             ok = !IsMaterialEdge(mesh, h) || AddSightEdge(sight, square, h, sight->grid->nodeCell.data[n]);
         }
     }

@@ -31,7 +31,7 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, cons
     kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
     int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[2];
     bool ok = true;
-    for (int32_t s = -1; ok && s < end; ++s) {
+    KIRI_FROM_TO_WHILE(ok, s, -1, end) {
         kiriSeed seed = SeedNear(site, owner, grid, mesh, s < 0 ? site->cell : kiriSteps_At(&steps, s).cell);
         ok = kiriArray_Push(memory, seeds, seed);
     }

@@ -704,7 +704,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         !kiriArrays_Resize(memory, cells, &work->sampled, &work->holds) ||
         !kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) ||
         !kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) ||
-        !kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count)) {
+        !kiriArray_ReserveMore(memory, &placer->sites, count)) {
         return false;
     }
     /* Only cells of the part are ever read from `sampled` and `holds`: floods do not leave it. */

@@ -230,7 +230,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     KIRI_TIMES_WHILE(!plain, k, end) {
         const kiriStep to = kiriSteps_At(&steps, k);
         kiriSteps more = kiriGrid_GetSteps(grid, to.cell);
-        if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + more.end[0])) {
+        if (!kiriArray_ReserveMore(memory, &stencil->steps, more.end[0])) {
             return false;
         }
         KIRI_TIMES(m, more.end[0]) {
@@ -277,7 +277,7 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
     stencil->frames.count = 0;
     KIRI_EACH(const kiriStep, step, stencil->steps) {
         kiriSpan span = shape->spans.data[step->cell];
-        if (!kiriArray_Reserve(memory, &stencil->frames, (int64_t)stencil->frames.count + span.count)) {
+        if (!kiriArray_ReserveMore(memory, &stencil->frames, span.count)) {
             return false;
         }
         KIRI_EACH_IN(w, span) {

@@ -101,7 +101,7 @@ static bool Overlaps(const kiriSquares* squares, SquareBox box, int32_t column, 
     }
     bool overlaps = true;
     kiriLatticePoint low = kiriSquares_CornerAt(squares, column, row);
-    for (int i = 0; i < 3 && overlaps && box.firstColumn != box.lastColumn && box.firstRow != box.lastRow; ++i) {
+    KIRI_TIMES_WHILE(overlaps&& box.firstColumn != box.lastColumn && box.firstRow != box.lastRow, i, 3) {
         kiriLatticePoint a = c[i], b = c[(i + 1) % 3], far;
         far.x = b.y > a.y ? low.x : low.x + squares->side;
         far.y = b.x > a.x ? low.y + squares->side : low.y;

@@ -94,7 +94,7 @@ static double InverseMass(const kiriContactStep* step, kiriVec3 point, kiriVec3 
 static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all, int32_t count, kiriContactStep* step)
 {
     double sum = 0.0;
-    for (int32_t n = 0; n < count && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
+    KIRI_TIMES_WHILE(step->memberCount < KIRI_CONTACT_MEMBERS, n, count) {
         bool isCoupled = true;
         KIRI_TIMES_WHILE(isCoupled, m, step->memberCount) {
             kiriPair pair = { step->members[m].frame, all[n].frame };

@@ -118,7 +118,7 @@ static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCo
     }
     int32_t bodies = 0;
     kiriArchive_Numbers(archive, bodyOf.data, 4, frameCount);
-    for (int32_t f = 0; f < frameCount && !kiriArchive_HasFailed(archive); ++f) {
+    KIRI_TIMES_WHILE(!kiriArchive_HasFailed(archive), f, frameCount) {
         kiriArchive_Expect(archive, bodyOf.data[f] >= 0 && bodyOf.data[f] <= bodies);
         bodies += bodyOf.data[f] == bodies;
     }
@@ -156,7 +156,7 @@ void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMecha
     } else if (!reads) {
         kiriArchive_Numbers(archive, solver->bodies.bodyOf.data, 4, frames);
     }
-    for (int32_t b = 0; b < bodies && !kiriArchive_HasFailed(archive); ++b) {
+    KIRI_TIMES_WHILE(!kiriArchive_HasFailed(archive), b, bodies) {
         kiriSolverBody* body = &solver->bodies.bodies.data[b];
         kiriMatrix_Archive(archive, body->matrix);
         kiriArchive_Expect(archive, kiriMatrix_FrameCount(body->matrix) == body->frames.count);

@@ -116,7 +116,7 @@ static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiri
     kiriStagedOwners staged = { square, { owner[cell], { 0, 0 } } };
     bool isDivided = grid->cells.data[cell].next != KIRI_NONE;
     int32_t count = isDivided ? kiriSquares_CountNodes(&mesh->squares, square) : 0;
-    if (!kiriArray_Reserve(memory, &ownership->staged, (int64_t)ownership->staged.count + 1) ||
+    if (!kiriArray_ReserveMore(memory, &ownership->staged, 1) ||
         !kiriSpan_Resize(&staged.owners.parts, &ownership->spans, memory, &ownership->triangleOwners,
                          sizeof(kiriTriangleOwner), count)) {
         return false;
@@ -220,7 +220,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
         kiriSpan* parts = &ownership->squares.data[of[k]].parts;
         int32_t cell = grid->squareCell.data[of[k]], kept = 0;
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-        for (int32_t p = parts->first; isDivided && p < parts->first + parts->count; ++p) {
+        KIRI_FROM_TO_WHILE(isDivided, p, parts->first, parts->first + parts->count) {
             if (kiriKeep_Has(triangles, owned[p].triangle)) {
                 owned[parts->first + kept++] = owned[p];
             }

@@ -729,7 +729,7 @@ void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32
     const kiriMatrix* matrix = bodies->bodies.data[bodies->bodyOf.data[weights[0].frame]].matrix;
     int32_t kept = 0;
     double sum = 0.0;
-    for (int32_t n = 0; n < *count && kept < KIRI_CONTACT_SIDE; ++n) {
+    KIRI_TIMES_WHILE(kept < KIRI_CONTACT_SIDE, n, *count) {
         bool isCoupled = true;
         KIRI_TIMES_WHILE(isCoupled, m, kept) {
             kiriPair pair = { bodies->place.data[weights[m].frame], bodies->place.data[weights[n].frame] };

@@ -875,7 +875,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
         const kiriVec3 axes[3] = KIRI_AXES;
-        for (int a = 0; a < 3 && !system->frames[pin->frame].held; ++a) {
+        KIRI_TIMES_WHILE(!system->frames[pin->frame].held, a, 3) {
             AddSpring(solver, system, pin->frame, pin->at, axes[a], kiriVec3_Dot(off, axes[a]), pin->stiffness);
         }
     }

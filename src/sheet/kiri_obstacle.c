@@ -273,7 +273,7 @@ double kiriObstacleShape_Enter(const kiriObstacleShape* shape, kiriVec3 from, ki
     enum { MOST_STEPS = 64 };
     double length = kiriVec3_Length(move), gone = 0.0, close = 1e-3 * gap + 1e-9;
     *nearest = kiriObstacleShape_Nearest(shape, from, across);
-    for (int step = 0; step < MOST_STEPS && nearest->distance > gap + close; ++step) {
+    KIRI_TIMES_WHILE(nearest->distance > gap + close, step, MOST_STEPS) {
         gone += nearest->distance - gap;
         if (gone >= length) {
             *nearest = kiriObstacleShape_Nearest(shape, kiriVec3_Add(from, move), across);

@@ -217,8 +217,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
         }
         ok = kiriOwner_FindShares(sheet, pin->at, pin->to, true) &&
              (pin->type == KIRI_PIN_HINGE || kiriSever_Across(sheet, pin->at, pin->to, i, true, &next->severed)) &&
-             kiriArray_Reserve(sheet->memory, &next->pinShares,
-                               (int64_t)next->pinShares.count + sheet->lineShares.count);
+             kiriArray_ReserveMore(sheet->memory, &next->pinShares, sheet->lineShares.count);
         if (ok) {
             next->pinFrame.data[i] = AppendShares(sheet, i, &next->pinShares, sheet->layout.pinFrame.data[i]);
         }

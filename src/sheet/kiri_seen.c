@@ -28,7 +28,7 @@ kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* plac
 {
     const kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 by = { 0 };
-    for (int k = 0; k < 3 && kiriSurface_HasDetail(surface); ++k) {
+    KIRI_TIMES_WHILE(kiriSurface_HasDetail(surface), k, 3) {
         const float* offset = surface->detail.offsets.data + 3 * CornersOf(sheet, place)[k];
         by = kiriVec3_AddScaled(by, place->shares[k], kiriVec3_Load(offset));
     }

@@ -348,7 +348,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
 static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     int32_t cuts = kiriArchive_Count(archive, sheet->cuts.count, 0, INT32_MAX);
-    for (int32_t i = 0; i < cuts && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_TIMES_WHILE(!kiriArchive_HasFailed(archive), i, cuts) {
         if (kiriArchive_Reads(archive)) {
             kiriCutData* cut = kiriMemory_AllocZeroed(memory, sizeof(kiriCutData));
             archive->isShort |= cut == NULL || !kiriArray_Push(memory, &sheet->cuts, cut);
@@ -363,7 +363,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
         }
     }
     int32_t points = kiriArchive_Count(archive, sheet->queue.count, 0, INT32_MAX);
-    for (int32_t i = 0; i < points && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_TIMES_WHILE(!kiriArchive_HasFailed(archive), i, points) {
         kiriQueuedPoint none = { 0 };
         if (kiriArchive_Reads(archive) && !kiriArray_Push(memory, &sheet->queue, none)) {
             archive->isShort = true;
@@ -544,7 +544,7 @@ static bool AreAreaElements(const kiriLayout* layout)
     bool areFine = kiriAreaElements_AreSound(areas);
     KIRI_EACH_WHILE(areFine, const kiriAreaElement, element, areas->elements) {
         const kiriFrameShare* shares = &areas->shares.data[element->first];
-        for (int32_t n = 1; areFine && n < element->count; ++n) {
+        KIRI_FROM_TO_WHILE(areFine, n, 1, element->count) {
             areFine = shares[n - 1].frame < shares[n].frame &&
                       layout->framePiece.data[shares[n].frame] == layout->framePiece.data[shares[0].frame];
         }

@@ -401,7 +401,7 @@ int32_t kiriTouches_AddYield(kiriSheetData* sheet, const kiriYieldRow* yield)
 
 int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number)
 {
-    for (int32_t k = sheet->touches.yields.count - 1; k >= 0; --k) {
+    KIRI_EACH_INDEX_BACK(k, sheet->touches.yields) {
         if (sheet->touches.yields.data[k].number == number) {
             return k;
         }
@@ -568,7 +568,7 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
     const int32_t* piece = sheet->layout.framePiece.data;
     int32_t count = 0;
     double sum = 0.0;
-    for (int32_t n = 0; n < blend->count && count < most; ++n) {
+    KIRI_TIMES_WHILE(count < most, n, blend->count) {
         int32_t best = n; /* the largest one that remains; among equal ones the lower frame */
         KIRI_FROM_TO(k, n + 1, blend->count) {
             const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];

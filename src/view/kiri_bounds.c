@@ -158,7 +158,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
             }
             for (int32_t i = first; level == 0 && i < end; ++i) {
                 const int32_t* corner = kiriSurface_Triangle(surface, bounds->order.data[i]);
-                for (int k = 0; k < 3 && corner[0] != corner[1]; ++k) {
+                KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
                     kiriVec3 at = kiriSurface_At(surface, corner[k]);
                     kiriBox_Add(&box, at);
                 }
@@ -300,7 +300,7 @@ static bool WalkNode(const BoxWalk* walk, int32_t level, int32_t node)
         return walk->visit(walk->context, &walk->bounds->order.data[first], end - first);
     }
     bool ok = true;
-    for (int32_t i = first; ok && i < end; ++i) {
+    KIRI_FROM_TO_WHILE(ok, i, first, end) {
         ok = WalkNode(walk, level - 1, i);
     }
     return ok;

@@ -46,7 +46,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
         count += stencil->values.data[i] >= LEAST_SHARE;
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
-        !kiriArray_Reserve(memory, &skin->staged, (int64_t)skin->staged.count + 1) ||
+        !kiriArray_ReserveMore(memory, &skin->staged, 1) ||
         !ResizeSampleWeights(skin, memory, &staged.span, count > 0 ? count : 1)) {
         return false;
     }
@@ -162,8 +162,7 @@ bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, 
 {
     /* Three parents, and spans have room for a power of two. */
     int64_t weights = skin->weights.count + 8 * (int64_t)frames * births;
-    return kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + births) &&
-           kiriArray_Reserve(memory, &skin->weights, weights);
+    return kiriArray_ReserveMore(memory, &skin->spans, births) && kiriArray_Reserve(memory, &skin->weights, weights);
 }
 
 void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)

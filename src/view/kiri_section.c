@@ -88,7 +88,7 @@ static bool MakeViews(Pieces* p, const kiriBounds* bounds)
     kiriVec3 along = kiriVec3_Normalize(kiriVec3_Add(kiriVec3_Normalize(way[0]), kiriVec3_Normalize(way[1])));
     kiriVec3 beside = kiriVec3_Cross(along, kiriVec3_Normalize(go)),
              axis[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-    for (int i = 0; i < 3 && kiriVec3_Length(beside) < 1e-3; ++i) {
+    KIRI_TIMES_WHILE(kiriVec3_Length(beside) < 1e-3, i, 3) {
         beside = kiriVec3_Cross(along, axis[i]);
     }
     beside = kiriVec3_Normalize(beside);
@@ -156,7 +156,7 @@ static void FindShares(const SeenCorner* const face[3], double shares[3])
         shares[i] = fabs((double)Turn(face[(i + 1) % 3], face[(i + 2) % 3]));
         sum += shares[i];
     }
-    for (int i = 0; i < 3 && sum == 0.0; ++i) {
+    KIRI_TIMES_WHILE(sum == 0.0, i, 3) {
         const SeenCorner *a = face[i], *b = face[(i + 1) % 3];
         if ((int64_t)a->x * b->x + (int64_t)a->y * b->y <= 0) {
             shares[i] = fabs((double)b->x) + fabs((double)b->y);

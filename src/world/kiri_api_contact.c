@@ -160,8 +160,7 @@ kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, 
 {
     KIRI_READS(world);
     KIRI_CHECK_OUT(state);
-    const kiriSlot* slot = kiriPool_Find(&world->obstacleIds, obstacle);
-    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no obstacle with this id");
+    KIRI_FIND_SLOT(obstacle);
     const kiriObstacleData* data = slot->owner;
     kiriVec3_Store(state->position, data->position);
     kiriMat3_Store(state->rotation, data->rotation);
@@ -485,8 +484,7 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
 {
     KIRI_READS(world);
     KIRI_CHECK_OUT(stitch);
-    const kiriSlot* slot = kiriPool_Find(&world->seamIds, seam);
-    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no seam with this id");
+    KIRI_FIND_SLOT(seam);
     const kiriSeamData* data = slot->owner;
     KIRI_CHECK(index >= 0 && index < data->stitches.count, "no stitch has this index");
     const kiriStitchData* from = &data->stitches.data[index];
@@ -507,8 +505,7 @@ kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* sti
 {
     KIRI_READS(world);
     KIRI_CHECK_OUT(stitches);
-    const kiriSlot* slot = kiriPool_Find(&world->seamIds, seam);
-    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no seam with this id");
+    KIRI_FIND_SLOT(seam);
     *stitches = ((const kiriSeamData*)slot->owner)->stitches.count;
     return KIRI_OK;
 }

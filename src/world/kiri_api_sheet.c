@@ -141,8 +141,7 @@ kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints
     kiriCutData* data = call->owner;
     kiriSheetData* sheet = data->sheet;
     KIRI_REQUIRE(!data->ended, KIRI_ERROR_STATE, "the cut has been ended");
-    KIRI_REQUIRE(kiriArray_Reserve(&world->memory, &sheet->queue, (int64_t)sheet->queue.count + count),
-                 KIRI_ERROR_MEMORY, NULL);
+    KIRI_REQUIRE(kiriArray_ReserveMore(&world->memory, &sheet->queue, count), KIRI_ERROR_MEMORY, NULL);
     KIRI_TIMES(i, count) {
         kiriWorld_QueuePoint(world, data, kiriSheet_ToLocal(sheet, &restPoints[2 * i]), false);
     }
@@ -154,8 +153,7 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
     KIRI_CHANGES(Cut_End, &cut);
     kiriCutData* data = call->owner;
     KIRI_REQUIRE(!data->ended, KIRI_ERROR_STATE, "the cut has been ended");
-    KIRI_REQUIRE(kiriArray_Reserve(&world->memory, &data->sheet->queue, (int64_t)data->sheet->queue.count + 1),
-                 KIRI_ERROR_MEMORY, NULL);
+    KIRI_REQUIRE(kiriArray_ReserveMore(&world->memory, &data->sheet->queue, 1), KIRI_ERROR_MEMORY, NULL);
     kiriWorld_EndCut(world, data);
     KIRI_RETURN(KIRI_OK);
 }
@@ -735,7 +733,7 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
         obstacle->upper = kiriVec3_Sub(obstacle->upper, to);
     }
     KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
-        for (int end = 0; end < 2 && blade->isPlaced; ++end) {
+        KIRI_TIMES_WHILE(blade->isPlaced, end, 2) {
             blade->edge[end] = kiriVec3_Sub(blade->edge[end], to);
         }
         KIRI_EACH(kiriLayer, layer, blade->layers) {

@@ -435,7 +435,7 @@ static kiriVec3 CameOf(const void* context, int32_t vertex)
     const BladeWork* work = context;
     kiriVec3 sum = { 0 };
     double weights = 0.0;
-    for (int32_t i = 0; i < work->oldCount && !work->isKnown; ++i) {
+    KIRI_TIMES_WHILE(!work->isKnown, i, work->oldCount) {
         const Track* track = &work->tracks.data[i];
         if (track->sheet == work->sheet && track->isSeen) {
             kiriVec2 way = kiriVec2_Sub(work->sheet->seen.surface.rest.data[vertex], track->rest);
@@ -484,7 +484,7 @@ static bool FindLines(BladeWork* work)
         }
     }
     double most = 0.0;
-    for (int32_t v = 0; v < sheet->seen.surface.vertexCount && work->ticks > 0; ++v) {
+    KIRI_TIMES_WHILE(work->ticks > 0, v, sheet->seen.surface.vertexCount) {
         kiriVec3 came = kiriSurface_Came(&sheet->seen.surface, v);
         most = kiriMax(most, kiriVec3_Dot(came, came));
     }
@@ -707,7 +707,7 @@ static bool StepThroughSheet(BladeWork* work)
 
 kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData** made)
 {
-    kiriResult result = kiriArray_Reserve(&world->memory, &world->blades, (int64_t)world->blades.count + 1)
+    kiriResult result = kiriArray_ReserveMore(&world->memory, &world->blades, 1)
                             ? kiriWorld_ReserveIds(world, &world->bladeIds, 1)
                             : KIRI_ERROR_MEMORY;
     kiriBladeData* blade = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*blade)) : NULL;
@@ -748,8 +748,8 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
 {
     KIRI_EACH_INDEX(i, blade->layers) {
         const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
-        if (cut != NULL && !kiriArray_Reserve(&world->memory, &cut->sheet->queue,
-                                              (int64_t)cut->sheet->queue.count + 3 * (int64_t)blade->layers.count)) {
+        if (cut != NULL &&
+            !kiriArray_ReserveMore(&world->memory, &cut->sheet->queue, 3 * (int64_t)blade->layers.count)) {
             return KIRI_ERROR_MEMORY;
         }
     }

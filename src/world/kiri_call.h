@@ -268,10 +268,12 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 #define KIRI_CHECK_FLOATS(values, count)                                                                               \
     KIRI_CHECK((values) != NULL && kiriCall_AreFinite(values, count), #values " is null or not finite")
 
-/* Declares `slot` of an id, and `found`: the sheet, or the sheet of the frame or pin. */
-#define KIRI_FIND(kind)                                                                                                \
+/* Declares `slot` of an id; and `found`: the sheet, or the sheet of the frame or pin. */
+#define KIRI_FIND_SLOT(kind)                                                                                           \
     const kiriSlot* slot = kiriPool_Find(&world->kind##Ids, kind);                                                     \
-    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id");                                   \
+    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id")
+#define KIRI_FIND(kind)                                                                                                \
+    KIRI_FIND_SLOT(kind);                                                                                              \
     KIRI_ASSERT(slot->owner != NULL && slot->index >= 0);                                                              \
     kiriSheetData* found = slot->owner
 

@@ -57,7 +57,7 @@ static void ListClusters(kiriWorld* world)
     KIRI_EACH(const int32_t, at, world->active) {
         islands->next.data[*at] = KIRI_NONE;
     }
-    for (int32_t k = world->active.count - 1; k >= 0; --k) {
+    KIRI_EACH_INDEX_BACK(k, world->active) {
         int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
         if (root != KIRI_NONE && root != i) {
             islands->next.data[i] = islands->next.data[root];
@@ -145,9 +145,9 @@ static void JoinStitches(kiriWorld* world, double dt)
 static void ListStitches(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+    KIRI_EACH_INDEX_BACK(i, world->seams) {
         kiriSeamData* seam = world->seams.data[i];
-        for (int32_t k = seam->rows.count - 1; k >= 0; --k) {
+        KIRI_EACH_INDEX_BACK(k, seam->rows) {
             kiriStitchRow* row = &seam->rows.data[k];
             if (row->body != KIRI_NONE) {
                 KIRI_ASSERT_HAS(islands->numbers, row->body);
@@ -207,7 +207,7 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
     islands->count = 0;
     bool ok = kiriArrays_Resize(memory, count, &islands->parents, &islands->numbers, &islands->bodies) &&
               (had >= count || kiriArray_Resize(memory, &islands->islands, count));
-    for (int32_t n = had; ok && n < islands->islands.count; ++n) {
+    KIRI_FROM_TO_WHILE(ok, n, had, islands->islands.count) {
         KIRI_CLEAR(&islands->islands.data[n]);
     }
     if (ok) {

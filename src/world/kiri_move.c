@@ -102,7 +102,7 @@ static void EndPins(const kiriWorld* world, const kiriSheetData* sheet, double d
 
 kiriResult kiriObstacles_Reserve(kiriWorld* world)
 {
-    return kiriArray_Reserve(&world->memory, &world->obstacles, (int64_t)world->obstacles.count + 1)
+    return kiriArray_ReserveMore(&world->memory, &world->obstacles, 1)
                ? kiriWorld_ReserveIds(world, &world->obstacleIds, 1)
                : KIRI_ERROR_MEMORY;
 }
@@ -450,7 +450,7 @@ bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet)
 /* Returns the load on an obstacle. Searches from the end, because touches of one obstacle are mostly consecutive. */
 static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 center)
 {
-    for (int32_t k = rests->on.count - 1; k >= 0; --k) {
+    KIRI_EACH_INDEX_BACK(k, rests->on) {
         if (rests->on.data[k].slot == slot) {
             return &rests->on.data[k];
         }

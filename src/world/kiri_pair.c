@@ -245,7 +245,7 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
     double distance = KeptDistance(&pairs->bodies.data[pair->bodies[0]], &pairs->bodies.data[pair->bodies[1]]);
     bool ok = true;
     pair->touches = 0;
-    for (int32_t i = pair->nears.first; ok && i < pair->nears.first + pair->nears.count; ++i) {
+    KIRI_FROM_TO_WHILE(ok, i, pair->nears.first, pair->nears.first + pair->nears.count) {
         const kiriNear* near = &pairs->nears.data[i];
         kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
@@ -978,7 +978,7 @@ static bool FindLayers(FoldSearch* search, double dt)
     KIRI_EACH_IN(i, span) {
         stir = kiriMax(kiriVec3_Distance(probes->velocities.data[i], mean), stir);
     }
-    for (int32_t i = span.first; ok && i < span.first + span.count; ++i) {
+    KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
         double speed = kiriVec3_Distance(probes->velocities.data[i], mean) + stir;
         double reach = 2.0 * sheet->settings.foldThickness + dt * speed;
         kiriNear none = { 0, 0, probes->list.items.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
@@ -1123,7 +1123,7 @@ static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
     kiriWorld* world = search->world;
     kiriSheetData* sheet = search->sheet;
     bool ok = true;
-    for (int32_t i = first; ok && i < world->pairs.nears.count; ++i) {
+    KIRI_FROM_TO_WHILE(ok, i, first, world->pairs.nears.count) {
         const kiriNear* near = &world->pairs.nears.data[i];
         KIRI_ASSERT(near->kept > 0.0 && near->triangle != KIRI_NONE);
         double side = near->height >= 0.0 ? 1.0 : -1.0;

@@ -239,7 +239,7 @@ static kiriResult ReserveIdsOfParts(Parting* parting)
         kiriSheetData* from = part->from->detach.sheet;
         pins += part->sheet != NULL ? part->sheet->pins.count : 0;
         made += part->sheet != NULL;
-        if (!kiriArray_Reserve(from->memory, &from->leaving, (int64_t)from->leaving.count + parting->parts.count)) {
+        if (!kiriArray_ReserveMore(from->memory, &from->leaving, parting->parts.count)) {
             return KIRI_ERROR_MEMORY;
         }
     }
@@ -357,8 +357,7 @@ static kiriResult LeaveFirst(kiriWorld* world, kiriSheetData* sheet, int32_t cou
 {
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    bool hasRoom = StartParting(&parting, world, 1) &&
-                   kiriArray_Reserve(&world->memory, &world->events, (int64_t)world->events.count + count);
+    bool hasRoom = StartParting(&parting, world, 1) && kiriArray_ReserveMore(&world->memory, &world->events, count);
     parting.isInTick = true;
     if (hasRoom && AddSource(&parting, sheet) != NULL && MarkPieces(&parting, sheet->leaving.data, count)) {
         result = Detach(&parting);
@@ -412,7 +411,7 @@ static void ForgetFrames(kiriWorld* world, const kiriDetach* detach)
 static void RemovePins(kiriWorld* world, const kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
-    for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
+    KIRI_EACH_INDEX_BACK(i, sheet->pins) {
         if (kiriSubset_FrameOfPin(&detach->rest, i) == KIRI_NONE) {
             kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
             kiriPins_Remove(sheet, i);

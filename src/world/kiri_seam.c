@@ -215,7 +215,7 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
     const float rest[2] = { (float)point.x, (float)point.y };
     kiriLatticePoint at;
     bool isFound = false;
-    for (int k = 0; k < 9 && !isFound && kiriSheet_ToLattice(sheet, rest, &at); ++k) {
+    KIRI_TIMES_WHILE(!isFound && kiriSheet_ToLattice(sheet, rest, &at), k, 9) {
         stitch->at[end].x = at.x + NEAR * sides[k][0];
         stitch->at[end].y = at.y + NEAR * sides[k][1];
         isFound = FollowEnd(sheet, stitch, end);
@@ -307,7 +307,7 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
     }
     double wanted = kiriMin(1.5 + PER_SPACING * length / spacing, MOST_STITCHES);
     int32_t count = kiriMax(def->stitches > 0 ? def->stitches : (int32_t)wanted, 2);
-    kiriResult result = kiriArray_Reserve(&world->memory, &world->seams, (int64_t)world->seams.count + 1)
+    kiriResult result = kiriArray_ReserveMore(&world->memory, &world->seams, 1)
                             ? kiriWorld_ReserveIds(world, &world->seamIds, 1)
                             : KIRI_ERROR_MEMORY;
     kiriSeamData* seam = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*seam)) : NULL;
@@ -389,7 +389,7 @@ static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, double l
 
 void kiriSeams_DropStale(kiriWorld* world)
 {
-    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+    KIRI_EACH_INDEX_BACK(i, world->seams) {
         kiriSeamData* seam = world->seams.data[i];
         if (DropStitches(world, seam, HUGE_VAL) > 0 && seam->stitches.count == 0) {
             kiriSeams_Remove(world, seam);
@@ -527,7 +527,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
 
 void kiriSeams_End(kiriWorld* world, double dt)
 {
-    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+    KIRI_EACH_INDEX_BACK(i, world->seams) {
         kiriSeamData* seam = world->seams.data[i];
         KIRI_ASSERT(seam->stitches.count > 0 && seam->rows.count <= seam->stitches.count);
         KIRI_EACH_INDEX(k, seam->rows) {

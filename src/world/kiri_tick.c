@@ -359,7 +359,7 @@ static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
             kiriWorld_AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = pin->id;
         }
     }
-    for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
+    KIRI_EACH_INDEX_BACK(i, sheet->pins) {
         if (IsOverloaded(&sheet->pins.data[i])) {
             kiriWorld_RemovePin(world, sheet, i);
         }

@@ -95,7 +95,7 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made)
 {
     if (!kiriArray_Reserve(&world->memory, &sheet->queue, sheet->queue.count + points + 1) ||
-        !kiriArray_Reserve(&world->memory, &sheet->cuts, (int64_t)sheet->cuts.count + 1)) {
+        !kiriArray_ReserveMore(&world->memory, &sheet->cuts, 1)) {
         return KIRI_ERROR_MEMORY;
     }
     kiriResult result = kiriWorld_ReserveIds(world, &world->cutIds, 1);
@@ -165,8 +165,8 @@ kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetDat
 static kiriResult GoOn(kiriWorld* world, kiriSheetData* sheet, const kiriTearTip* tip, kiriCutData* cut, kiriVec2 to,
                        kiriVec2 along)
 {
-    if (!kiriArray_Reserve(&world->memory, &world->events, (int64_t)world->events.count + 1) ||
-        !kiriArray_Reserve(&world->memory, &sheet->queue, (int64_t)sheet->queue.count + 2)) {
+    if (!kiriArray_ReserveMore(&world->memory, &world->events, 1) ||
+        !kiriArray_ReserveMore(&world->memory, &sheet->queue, 2)) {
         return KIRI_ERROR_MEMORY;
     }
     if (cut == NULL) {
@@ -233,8 +233,7 @@ void kiriTears_EndResting(kiriWorld* world, double dt)
     KIRI_EACH_ACTIVE(sheet, world) {
         KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
             cut->rests += kiriCut_IsTear(cut) && cut->waiting == 0 ? dt : 0.0;
-            if (cut->rests > RESTING && !cut->ended &&
-                kiriArray_Reserve(&world->memory, &sheet->queue, (int64_t)sheet->queue.count + 1)) {
+            if (cut->rests > RESTING && !cut->ended && kiriArray_ReserveMore(&world->memory, &sheet->queue, 1)) {
                 kiriWorld_EndCut(world, cut);
             }
         }
