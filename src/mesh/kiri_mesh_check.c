@@ -233,7 +233,7 @@ static bool AreFolds(const kiriMeshData* mesh)
         }
         areFine = areFine && !kiriLattice_IsSame(fold->from, fold->to) && fold->reach >= 0.0 &&
                   fold->reach <= KIRI_MOST_FOLD_REACH && fold->stiffness >= 0.0f && fold->yieldMoment >= 0.0f &&
-                  fabs((double)fold->restAngle) <= KIRI_MOST_FOLD;
+                  fabs(fold->restAngle) <= KIRI_MOST_FOLD;
     }
     KIRI_TIMES_WHILE(areFine, h, 3 * mesh->triangles.count) {
         bool isClaimed = !kiriMesh_IsCrease(mesh, h);

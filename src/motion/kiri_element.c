@@ -106,7 +106,7 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
 
 void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness)
 {
-    double E = (double)material->youngsModulus, nu = (double)material->poissonsRatio, h = (double)material->thickness;
+    double E = material->youngsModulus, nu = material->poissonsRatio, h = material->thickness;
     double G = 0.5 * E / (1.0 + nu) * h * element->area, K = 0.5 * E / (1.0 - nu) * h * element->area,
            bend = h * h / 12.0;
     const double all[KIRI_AREA_STRAINS] = { K, G, G, bend * K, bend * G, bend * G, G, G, E * h * element->area };

@@ -396,8 +396,8 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
                       const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material)
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
-    double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
+    double h = material->thickness, nu = material->poissonsRatio;
+    double membrane = material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
     Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
     double missing = 0.0, held = 0.0;
     KIRI_TIMES(k, linkCount) {

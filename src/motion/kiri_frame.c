@@ -143,7 +143,7 @@ kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r)
 
 kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    double thickness = (double)material->thickness;
+    double thickness = material->thickness;
     double least = frame->mass * thickness * thickness / 12.0;
     kiriMassMoments m = { frame->inertia[0] + least, frame->inertia[1], frame->inertia[2] + least, least };
     return m;
@@ -312,15 +312,6 @@ static kiriPrediction Standing(const kiriFrameData* frame, const kiriMaterial* m
     return prediction;
 }
 
-kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                   const kiriStepping* stepping)
-{
-    kiriPrediction prediction = Standing(frame, material);
-    PredictPlace(frame, gravity, stepping, &prediction);
-    PredictTurn(frame, stepping, &prediction);
-    return prediction;
-}
-
 /* ---- Affine frames ---- */
 
 /* Returns the inertia of an A that is not a rotation. It has an inverse even if A has collapsed. */
@@ -382,12 +373,12 @@ static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, ki
     prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
 }
 
-kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                     const kiriStepping* stepping)
+kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                   const kiriStepping* stepping, bool isAffine)
 {
     kiriPrediction prediction = Standing(frame, material);
     PredictPlace(frame, gravity, stepping, &prediction);
-    PredictColumns(frame, stepping, &prediction);
+    (isAffine ? PredictColumns : PredictTurn)(frame, stepping, &prediction);
     return prediction;
 }
 

@@ -208,13 +208,9 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
 /* Predicts a free frame under gravity, its own force, and the terms of its history. The iteration starts without inner
    forces, or with the inner forces of the last step. The host's torque shifts only the target, by h' h I^-1 torque x A:
    in the objective this is a torque, however large. As part of the free turn, it would rotate the target by more than a
-   turn if h^2 torque / I exceeds 2 pi. */
+   turn if h^2 torque / I exceeds 2 pi. An affine frame turns by its spin and continues to stretch. */
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                   const kiriStepping* stepping);
-
-/* Predicts an affine frame, which turns by its spin and continues to stretch. */
-kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
-                                     const kiriStepping* stepping);
+                                   const kiriStepping* stepping, bool isAffine);
 
 /* Returns A + change, except that the turning part of the change is applied as a rotation, which keeps lengths. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);

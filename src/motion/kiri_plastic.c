@@ -16,13 +16,13 @@ static double SectionEnergy(double a, double b, double hardening)
 void kiriYield_Begin(kiriYield* yield, const kiriPlastic* plastic, const kiriMaterial* material, double length,
                      const kiriBentStrain* stiffness, const kiriBentStrain* offset, const kiriBentStrain* strain)
 {
-    double E = (double)material->youngsModulus, h = (double)material->thickness;
+    double E = material->youngsModulus, h = material->thickness;
     KIRI_CLEAR(yield);
     yield->start = *offset;
     yield->elastic = (kiriBentStrain){ strain->bending - offset->bending, strain->twist - offset->twist, 0.0 };
     if (material->yieldStress > 0.0f && stiffness->bending > 0.0) {
-        yield->limit = 2.0 * (double)material->yieldStress / (E * h) * length;
-        yield->hardening = (double)material->hardening;
+        yield->limit = 2.0 * material->yieldStress / (E * h) * length;
+        yield->hardening = material->hardening;
         yield->reach = kiriMax(plastic->reach, 1.0);
         yield->flowed = yield->reach - SectionMoment(yield->reach, yield->hardening);
         yield->stiffness = stiffness->bending;

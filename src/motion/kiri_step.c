@@ -89,9 +89,9 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
     KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData* frame = &solver->before.data[f];
         const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
-        solver->predictions.data[f] = frame->held ? kiriPrediction_Held(frame, material, solver->stepping.h)
-                                      : isAffine  ? kiriPrediction_Affine(frame, material, gravity, &solver->stepping)
-                                                  : kiriPrediction_Free(frame, material, gravity, &solver->stepping);
+        solver->predictions.data[f] =
+            frame->held ? kiriPrediction_Held(frame, material, solver->stepping.h)
+                        : kiriPrediction_Free(frame, material, gravity, &solver->stepping, isAffine);
         solver->poses.data[f] = solver->predictions.data[f].guess;
     }
     ShiftFreeBody(solver, system);
@@ -590,7 +590,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         solver->stopping.data[k] = 0;
         kiriElement_Members(system, k, solver->members.data);
         const kiriMaterial* material = kiriSystem_MaterialOf(system, solver->members.data[0]);
-        double damping = (double)material->flexDamping / dt * DampingShare(solver, system, k);
+        double damping = material->flexDamping / dt * DampingShare(solver, system, k);
         for (int e = 0, count = kiriElement_StrainCount(system, k); e < count; ++e) {
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
@@ -602,7 +602,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
         int32_t frame = system->clamps[k].frame;
         const kiriMaterial* material = kiriSystem_MaterialOf(system, frame);
-        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, material, (double)material->flexDamping / dt,
+        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, material, material->flexDamping / dt,
                         &system->frames[frame], &solver->start.data[frame]);
     }
     KIRI_TIMES(f, system->frameCount) {

@@ -416,8 +416,8 @@ static void TakeCurl(const kiriCurl* curl, double* bending, kiriStrainRow* row)
 
 double kiriStrain_PlateStiffness(const kiriMaterial* material)
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
-    return (double)material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    double h = material->thickness, nu = material->poissonsRatio;
+    return material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
 }
 
 /* Measures the part along a vector that frame i carries, of a vector that j carries, or of the gap at a point: `from`
@@ -529,10 +529,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     }
     kiriCurl curl = kiriCurl_Of(link, material, link->outer);
     if (link->outer >= link->width) { /* open at both ends */
-        TakeRibbon(link, &axes, (double)material->poissonsRatio, &curl, strain, rows);
+        TakeRibbon(link, &axes, material->poissonsRatio, &curl, strain, rows);
     }
     if (material->slack > 0.0f && strain[KIRI_STRETCH] < 0.0) {
-        double keep = sqrt(1.0 - (double)material->slack), reach = SLACK_REACH * link->length;
+        double keep = sqrt(1.0 - material->slack), reach = SLACK_REACH * link->length;
         double share = reach / (reach - strain[KIRI_STRETCH]);
         strain[KIRI_STRETCH] *= keep + (1.0 - keep) * share;
         if (rows != NULL) {
@@ -584,7 +584,7 @@ static double NormalGapWidth(const kiriLink* link, double poissonsRatio)
    visibly; the regions beyond bend and twist. A stiff hinge bends and twists as a plate. */
 static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
 {
-    double nu = (double)material->poissonsRatio, W = link->width, l = link->length;
+    double nu = material->poissonsRatio, W = link->width, l = link->length;
     double membrane = (double)material->youngsModulus * material->thickness / l;
     double bending = kiriStrain_PlateStiffness(material) / l;
     double share = link->hinge / (bending + link->hinge);
@@ -604,8 +604,8 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
         SetFoldStiffness(link, material, stiffness);
         return;
     }
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
-    double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
+    double h = material->thickness, nu = material->poissonsRatio, l = link->length;
+    double membrane = material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     double outer = link->outer, inner = link->width - outer, beyond = link->beyond;
     stiffness[KIRI_STRETCH] = membrane * (inner / (1.0 + nu) + outer + nu / (1.0 + nu) * beyond);
     stiffness[KIRI_SHEAR] = membrane * (inner + 0.5 * SHEAR_BEAM * outer) / (1.0 + nu);
@@ -686,8 +686,8 @@ void kiriTrace_Members(const kiriCorner* corner, const kiriLink* links, int32_t 
 
 void kiriTrace_Stiffness(const kiriCorner* corner, const kiriMaterial* material, double stiffness[KIRI_TRACES])
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
-    double membrane = (double)material->youngsModulus * h / (1.0 - nu * nu);
+    double h = material->thickness, nu = material->poissonsRatio;
+    double membrane = material->youngsModulus * h / (1.0 - nu * nu);
     stiffness[KIRI_TRACE_STRETCH] = nu * membrane * corner->area;
     stiffness[KIRI_TRACE_CURVATURE] = nu * membrane * h * h / 12.0 * corner->area;
 }
@@ -866,7 +866,7 @@ void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlast
 
 kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double curling)
 {
-    double nu = (double)material->poissonsRatio, h = (double)material->thickness;
+    double nu = material->poissonsRatio, h = material->thickness;
     double W = 2.0 * link->outer - kiriLink_LoneWidth(link); /* of the strip */
     double inner = (1.0 - nu) * (link->width - link->outer), outer = (1.0 - nu * nu) * link->outer;
     double ratio = W * W / (link->length * h);
@@ -911,7 +911,7 @@ double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material
 {
     double slope;
     if (link->fold != 0) {
-        double perAngle = 2.0 * (double)material->yieldStress / ((double)material->youngsModulus * material->thickness);
+        double perAngle = 2.0 * material->yieldStress / ((double)material->youngsModulus * material->thickness);
         bool yields = link->yield > 0.0 && stiffness->bending > 0.0;
         double limit = yields ? link->yield * link->width / (1.5 * stiffness->bending) : 0.0;
         *stiffness = (kiriBentStrain){ limit > 0.0 ? stiffness->bending : 0.0, 0.0, 0.0 };
@@ -1078,8 +1078,8 @@ void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, cons
 
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS])
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
-    double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
+    double h = material->thickness, nu = material->poissonsRatio, l = link->length;
+    double membrane = material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     KIRI_TIMES(a, 3) {
         stiffness[KIRI_AFFINE_GAP + a] = GAP_SHARE * membrane * link->width;
         stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
@@ -1257,8 +1257,8 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
    so it is as stiff as if both directions were strained. */
 static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;
-    double membrane = (double)material->youngsModulus * h / (l * (1.0 - nu * nu)), bending = membrane * h * h / 12.0;
+    double h = material->thickness, nu = material->poissonsRatio, l = row->link.length;
+    double membrane = material->youngsModulus * h / (l * (1.0 - nu * nu)), bending = membrane * h * h / 12.0;
     kiriStrain_Stiffness(&row->link, material, row->stiffness);
     row->stiffness[KIRI_STRETCH] = membrane * row->link.width;
     row->stiffness[KIRI_BENDING] = bending * row->link.width;
@@ -1270,8 +1270,8 @@ static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
 /* Sets the stiffness for an affine frame, whose bending strains include twist. */
 static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
 {
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;
-    double W = row->link.width, membrane = (double)material->youngsModulus * h / l;
+    double h = material->thickness, nu = material->poissonsRatio, l = row->link.length;
+    double W = row->link.width, membrane = material->youngsModulus * h / l;
     double bending = membrane * h * h / (12.0 * (1.0 - nu * nu)), twisted = (1.0 - nu) * (W + row->outer) - W;
     kiriAffine_Stiffness(&row->link, material, row->stiffness);
     KIRI_TIMES(a, 3) {

@@ -237,8 +237,8 @@ static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
     const kiriTearing* tearing = &sheet->settings.tearing;
     kiriVec2 grain = { (double)tearing->grain[0], (double)tearing->grain[1] };
     double square = kiriVec2_Dot(grain, grain), sine = kiriVec2_Cross(grain, along);
-    double across = square > 0.0 ? ((double)tearing->grainRatio - 1.0) * sine * sine / square : 0.0;
-    return (double)tearing->toughness * (double)sheet->settings.material.thickness * (1.0 + kiriMax(across, 0.0));
+    double across = square > 0.0 ? (tearing->grainRatio - 1.0) * sine * sine / square : 0.0;
+    return tearing->toughness * (double)sheet->settings.material.thickness * (1.0 + kiriMax(across, 0.0));
 }
 
 /* ---- Direction --------------------------------------------------------------------------------------------------- */
@@ -246,7 +246,7 @@ static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
 /* Returns the mean membrane stress over a half disc ahead, relative to Young's modulus. */
 static kiriTensor StressAhead(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 along, int32_t piece, double reach)
 {
-    double nu = (double)sheet->settings.material.poissonsRatio, mass = 0.0;
+    double nu = sheet->settings.material.poissonsRatio, mass = 0.0;
     kiriTensor sum = { 0.0, 0.0, 0.0 };
     KIRI_EACH_INDEX(f, sheet->tears.regions) {
         kiriVec2 off = kiriVec2_Sub(sheet->frames.data[f].site.at, at);
@@ -346,7 +346,7 @@ static double ReleaseAt(const kiriSheetData* sheet, const kiriTearTip* tip, kiri
 
 kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, double most, kiriVec2* along)
 {
-    double stiffness = (double)sheet->settings.material.youngsModulus * (double)sheet->settings.material.thickness;
+    double stiffness = sheet->settings.material.youngsModulus * (double)sheet->settings.material.thickness;
     int32_t piece = kiriPiece_OfVertex(sheet, tip->vertex);
     kiriVec2 at = kiriMesh_Local(&sheet->mesh, tip->point);
     double spacing = kiriTears_Spacing(sheet, piece), taken = TakenAlong(sheet, tip->along);

@@ -457,7 +457,7 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
     touch.offset = contact->offset;
     touch.velocity = kiriVec3_Load(contact->velocity);
     touch.friction = contact->friction;
-    touch.pushSpeed = contact->pushSpeed > 0.0f ? (double)contact->pushSpeed : DEFAULT_PUSH;
+    touch.pushSpeed = contact->pushSpeed > 0.0f ? contact->pushSpeed : DEFAULT_PUSH;
     touch.felt = contact->inverseMass;
     return FindYieldOf(sheet, contact, &touch.yield) && kiriTouches_Add(sheet, &touch);
 }

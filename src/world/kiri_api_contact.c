@@ -427,11 +427,7 @@ kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* p
     KIRI_READS(world);
     KIRI_CHECK_LIST(pins);
     KIRI_FIND(sheet);
-    KIRI_EACH_INDEX_WHILE(i < capacity, i, found->pins) {
-        pins[i] = found->pins.data[i].id;
-    }
-    *count = found->pins.count;
-    return KIRI_OK;
+    KIRI_RETURN_IDS(pins, found->pins, &found->pins.data[i]);
 }
 
 kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
@@ -514,11 +510,7 @@ kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t c
 {
     KIRI_READS(world);
     KIRI_CHECK_LIST(seams);
-    KIRI_EACH_INDEX_WHILE(i < capacity, i, world->seams) {
-        seams[i] = world->seams.data[i]->id;
-    }
-    *count = world->seams.count;
-    return KIRI_OK;
+    KIRI_RETURN_IDS(seams, world->seams, world->seams.data[i]);
 }
 
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)

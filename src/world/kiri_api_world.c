@@ -271,11 +271,7 @@ kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_
 {
     KIRI_READS(world);
     KIRI_CHECK_LIST(sheets);
-    KIRI_EACH_INDEX_WHILE(i < capacity, i, world->sheets) {
-        sheets[i] = world->sheets.data[i]->id;
-    }
-    *count = world->sheets.count;
-    return KIRI_OK;
+    KIRI_RETURN_IDS(sheets, world->sheets, world->sheets.data[i]);
 }
 
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)

@@ -283,6 +283,15 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
     KIRI_CHECK_OUT(out);                                                                                               \
     KIRI_FIND(kind)
 
+/* Writes the ids of the items of an array, as far as they fit, and their number; and ends the function. `item` is where
+   item i is. */
+#define KIRI_RETURN_IDS(ids, array, item)                                                                              \
+    KIRI_EACH_INDEX_WHILE(i < capacity, i, array) {                                                                    \
+        (ids)[i] = (item)->id;                                                                                         \
+    }                                                                                                                  \
+    *count = (array).count;                                                                                            \
+    return KIRI_OK
+
 /* Tests whether a callback of a function that only reads is running. */
 static inline bool kiriCall_IsRead(const kiriWorld* world)
 {

@@ -174,7 +174,7 @@ static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* member
         reach += members[n].value * kiriVec2_Dot(way, inward);
     }
     return kiriMax(reach, thickness) * 12.0 * (1.0 - nu * nu) /
-           ((double)material->youngsModulus * thickness * thickness * thickness);
+           (material->youngsModulus * thickness * thickness * thickness);
 }
 
 /* ---- Seams come and go ------------------------------------------------------------------------------------------- */
@@ -249,8 +249,8 @@ static bool IsStiff(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
     double thickness = material->thickness, spacing = FrameSpacing(sheet);
-    double bending = (double)material->youngsModulus * thickness * thickness / 12.0;
-    return bending > (double)material->density * GRAVITY * spacing * spacing * spacing;
+    double bending = material->youngsModulus * thickness * thickness / 12.0;
+    return bending > material->density * GRAVITY * spacing * spacing * spacing;
 }
 
 static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
