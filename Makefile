@@ -20,7 +20,7 @@
 #   make bindings makes kiri.json, and what each language has of it, from the header
 #   make install  library, header and packages of pkg-config and CMake; PREFIX=, DESTDIR=, libdir=; make uninstall
 #   make abi      compares the binary interface with the last version's
-#   make bench    runs the benchmarks
+#   make bench    runs the benchmarks; figures: measures what documents quote of them, and writes it there
 #   make accuracy compares with references from outside; CASE=torsion: that one only
 #   make trade    what accuracy costs: one page of curves for five materials in four scenes, with springs beside
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
@@ -160,7 +160,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d jolt play view python bindings described builds exported renderers lib single example bench accuracy trade contact extremes gallery guide deps
-.PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
+.PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -262,6 +262,14 @@ coverage: packages-test
 	@mkdir -p build/coverage && find build/coverage -name '*.gcda' -delete
 	@$(MAKE) --no-print-directory config=coverage $$(sh tests/coverage.sh)
 	@sh tests/coverage.sh build/coverage 95
+
+# Measures the numbers that documents quote: tests/data/figures.txt.
+figures: packages-bench
+	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/,bench_scenes bench_features bench_growth accuracy)
+	@mkdir -p build/accuracy
+	@for bench in scenes features growth; do $(BUILD)/tests/bench_$$bench || exit 1; done
+	@$(BUILD)/tests/accuracy tests/data build/accuracy cantilever
+	@$(PYTHON) tests/figures.py --measure
 
 bench: packages-bench
 	@$(MAKE) --no-print-directory $(BENCHES)
@@ -434,11 +442,15 @@ floors:
 	@echo "src: includes go down the floors"
 
 # What the sources say of themselves, without a build.
-check: ratchet floors fields
+check: ratchet floors fields quotes
 
 # Figures of the sources against tests/ratchet.txt: `$(PYTHON) tests/ratchet.py --lower` makes limits stricter.
 ratchet:
 	@$(PYTHON) tests/ratchet.py
+
+# Documents quote the figures that were measured.
+quotes:
+	@$(PYTHON) tests/figures.py
 
 # What is saved of a struct is what it has.
 fields:

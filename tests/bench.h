@@ -190,7 +190,7 @@ static inline bool Table_Start(Table* table, const char* name, const char* title
     printf("%s\n", title);
     for (int32_t i = 0; columns[i] != NULL; i++) {
         printf(i > 0 ? "  %*s" : "  %-*s", Table_WidthOf(columns[i]), columns[i]);
-        fprintf(table->csv, i > 0 ? ",%s" : "%s", columns[i]);
+        fprintf(table->csv, i > 0 ? ",\"%s\"" : "\"%s\"", columns[i]);
     }
     return true;
 }
@@ -206,7 +206,9 @@ static inline void Table_Cell(Table* table, const char* printed, const char* wri
 
 static inline void Table_Text(Table* table, const char* text)
 {
-    Table_Cell(table, text, text);
+    char written[128];
+    snprintf(written, sizeof written, "\"%s\"", text);
+    Table_Cell(table, text, written);
 }
 
 /* Three digits of it, or all of a whole number. */

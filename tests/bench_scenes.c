@@ -457,7 +457,7 @@ static bool PrintFeatures(void)
 {
     static const char* const columns[] = { "scene     ", "mode  ", "before", "cutting", "after", "MB", NULL };
     Table table;
-    if (!Table_Start(&table, "features",
+    if (!Table_Start(&table, "models",
                      "What scenes have beyond rigid frames in space: ms of a tick before, with and after cuts, median, "
                      "and the most memory at a\ntime; the same with rigid frames in space; the first by the second.",
                      columns)) {
