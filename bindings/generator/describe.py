@@ -4,26 +4,8 @@ import re
 
 import header
 
-# What the header says in words only. Fields of structs that point to arrays: the field that counts rows, numbers a row.
-ARRAYS = {
-    "kiriSheetDef": {"restPositions": ("vertexCount", 2), "indices": ("triangleCount", 3),
-                     "framePoints": ("frameCount", 2)},
-    "kiriMesh": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
-                 "indices": ("triangleCount", 3), "sourceTriangles": ("vertexCount", 1),
-                 "sourceWeights": ("vertexCount", 3)},
-    "kiriSolid": {"positions": ("vertexCount", 3), "normals": ("vertexCount", 3), "restPositions": ("vertexCount", 2),
-                  "indices": ("triangleCount", 3), "sources": ("vertexCount", 1)},
-    "kiriPieceMesh": {"vertices": ("vertexCount", 1), "triangles": ("triangleCount", 1),
-                      "indices": ("triangleCount", 3), "collisionPoints": ("collisionPointCount", 1)},
-    "kiriObstacleDef": {"outline": ("outlineCount", 2)},
-    "kiriSeamDef": {"lineA": ("countA", 2), "lineB": ("countB", 2)},
-    "kiriReplay": {"note": ("noteCount", 1)},
-}
-NULLABLE = {"kiriSheetDef.framePoints", "kiriObstacleDef.outline", "kiriMesh.normals", "kiriReplay.note",
-            "kiriWorldDef.alloc", "kiriWorldDef.free", "kiriWorldDef.log", "kiriWorldDef.clock",
-            "kiriDebugDraw.points", "kiriDebugDraw.lines", "kiriDebugDraw.triangles", "kiriDebugDraw.user",
-            "kiriWorldDef.startTask", "kiriWorldDef.finishTask", "kiriWorldDef.user", "kiriWorldDef.record",
-            "kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_Snapshot.bytes",
+# What the header says of parameters in words only.
+NULLABLE = {"kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_Snapshot.bytes",
             "kiriSheet_CopyVertices.positions", "kiriSheet_CopyVertices.normals", "kiriSheet_GetWeights.gradients",
             "kiriFrame_Hold.position", "kiriFrame_Hold.rotation", "kiriBeginBlade.sheet"}
 PARAMETERS = {
@@ -55,8 +37,10 @@ PARAMETERS = {
 RETURNS = {"kiriGetResultName": "forever", "kiriGetResultText": "forever", "kiriGetStageName": "forever",
            "kiriWorld_GetLastError": "until the next call that changes the world"}
 
-# Tags in comments: an id that may be 0, a number that is 0 or 1, a result.
-NONE, FLAG, PENDS = r"\b0: none\b", r"1: ", r"\bKIRI_PENDING: "
+# Tags in comments: an id that may be 0, a number that is 0 or 1, a result, a pointer that may be null, an array with so many
+# numbers for each of its rows.
+NONE, FLAG, PENDS, NULL = r"\b0: none\b", r"1: ", r"\bKIRI_PENDING: ", r"\b[Nn]ull\b"
+ARRAY = r"\b(\d+) (?:floats (?:\(u, v\) )?)?an? (\w+)"
 
 # Bytes and alignment.
 NUMBERS = {"int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8, "uint16_t": 2}
@@ -133,7 +117,7 @@ class Describer:
     # ---- Structs
 
     def _struct(self, struct):
-        fields = [self._field(struct["name"], field) for field in struct["fields"]]
+        fields = [self._field(struct["name"], field, struct["fields"]) for field in struct["fields"]]
         laid = {"name": struct["name"], "section": struct["section"], "doc": struct["doc"], "size": {}, "align": {},
                 "fields": fields}
         default = struct["name"].replace("kiri", "kiriDefault", 1)
@@ -158,7 +142,7 @@ class Describer:
             return struct["size"][machine], struct["align"][machine]
         return self._numbers[field["type"]] * field.get("count", 1), self._numbers[field["type"]]
 
-    def _field(self, struct, field):
+    def _field(self, struct, field, fields):
         if struct == "kiriSheetSettings":  # "as there", says the header
             there = {f["name"]: f["doc"] for f in self._structs["kiriSheetDef"]["fields"]}
             field = {**field, "doc": field["doc"] or there.get(field["name"], "")}
@@ -170,10 +154,9 @@ class Describer:
             described["count"] = field["count"]
         if form == "pointer":
             described["const"] = field["const"]
-            length, width = ARRAYS.get(struct, {}).get(field["name"], (None, None))
-            described.update({"length": length, "width": width} if length else {})
+            described.update(self._rows(name, field, fields))
         if form in ("pointer", "callback"):
-            described["nullable"] = self._is_nullable(name)
+            described["nullable"] = form == "callback" or field["type"] == "void" or bool(re.search(NULL, field["doc"]))
         if re.match(FLAG, field["doc"]):
             described["flag"] = True
         if form == "id" and re.search(NONE, field["doc"]):
@@ -182,9 +165,17 @@ class Describer:
             described["enum"] = self._enum_of(field["doc"])
         return described
 
-    def _is_nullable(self, name):
-        self._used.add(name)
-        return name in NULLABLE
+    @staticmethod
+    def _rows(name, field, fields):
+        """The field that counts rows is called after a row, or after the array."""
+        array, own = re.search(ARRAY, field["doc"]), field["name"]
+        noun = array[2] if array else ""
+        counts = {f"{noun}Count", f"{own}Count", f"{own.removesuffix('s')}Count", f"count{own[-1]}"} & {f["name"] for f in fields}
+        if field["type"] == "void" and not counts:
+            return {}
+        if len(counts) != 1 or not array and field["type"] != "void":
+            raise SyntaxError(f"{name}: its comment has no '3 a vertex', or no field counts its rows")
+        return {"length": counts.pop(), "width": int(array[1]) if array else 1}
 
     # ---- Functions
 

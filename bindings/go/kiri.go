@@ -559,7 +559,8 @@ type SheetDef struct {
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
 	// 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
-	Accuracy    float32
+	Accuracy float32
+	// 2 floats a frame, or null
 	FramePoints [][2]float32
 	// re-sampling stops here; default 256
 	MaxFrames int32
@@ -801,13 +802,13 @@ type PieceState struct {
 
 // The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece.
 type PieceMesh struct {
-	// of kiriMesh
+	// 1 a vertex: its index in kiriMesh
 	Vertices View[int32]
-	// of kiriMesh
+	// 1 a triangle: its index in kiriMesh
 	Triangles View[int32]
 	// 3 a triangle, as in kiriMesh: draw them
 	Indices View[[3]int32]
-	// see kiriSheet_GetCollisionPoints
+	// 1 a point, see kiriSheet_GetCollisionPoints
 	CollisionPoints     View[int32]
 	VertexCount         int32
 	TriangleCount       int32
@@ -908,6 +909,7 @@ type SeamDef struct {
 	SheetB SheetID
 	// 2 floats a point, m, in the material, such as its edge; copied
 	LineA [][2]float32
+	// 2 floats a point
 	LineB [][2]float32
 	// 2 to 4096; 0 (default): three for two distances of frames
 	Stitches int32
@@ -985,7 +987,7 @@ type ObstacleDef struct {
 	Radius float32
 	// m
 	Height float32
-	// 2 floats a corner, m, counter-clockwise; copied
+	// 2 floats a corner, m, counter-clockwise; copied. Null: no prism
 	Outline [][2]float32
 	// m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
 	Rounding float32

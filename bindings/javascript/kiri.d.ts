@@ -513,6 +513,7 @@ export class SheetDef {
     frameLength: number;
     /** 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
     accuracy: number;
+    /** 2 floats a frame, or null */
     framePoints: Float32Array | null;
     /** re-sampling stops here; default 256 */
     maxFrames: number;
@@ -590,6 +591,7 @@ export interface SheetDefGiven {
     frameLength?: number;
     /** 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
     accuracy?: number;
+    /** 2 floats a frame, or null */
     framePoints?: ArrayLike<number> | null;
     /** re-sampling stops here; default 256 */
     maxFrames?: number;
@@ -882,13 +884,13 @@ export class PieceState {
 /** The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece.
  *  Arrays are those of the library: after the next tick they throw. */
 export class PieceMesh {
-    /** of kiriMesh */
+    /** 1 a vertex: its index in kiriMesh */
     readonly vertices: Int32Array;
-    /** of kiriMesh */
+    /** 1 a triangle: its index in kiriMesh */
     readonly triangles: Int32Array;
     /** 3 a triangle, as in kiriMesh: draw them */
     readonly indices: Int32Array;
-    /** see Sheet.getCollisionPoints */
+    /** 1 a point, see Sheet.getCollisionPoints */
     readonly collisionPoints: Int32Array;
     vertexCount: number;
     triangleCount: number;
@@ -1018,6 +1020,7 @@ export class SeamDef {
     sheetB: Sheet | null;
     /** 2 floats a point, m, in the material, such as its edge; copied */
     lineA: Float32Array;
+    /** 2 floats a point */
     lineB: Float32Array;
     /** points: 2 to 65536 */
     countA: number;
@@ -1041,6 +1044,7 @@ export interface SeamDefGiven {
     sheetB?: Sheet | null;
     /** 2 floats a point, m, in the material, such as its edge; copied */
     lineA?: ArrayLike<number> | null;
+    /** 2 floats a point */
     lineB?: ArrayLike<number> | null;
     /** 2 to 4096; 0 (default): three for two distances of frames */
     stitches?: number;
@@ -1119,7 +1123,7 @@ export class ObstacleDef {
     radius: number;
     /** m */
     height: number;
-    /** 2 floats a corner, m, counter-clockwise; copied */
+    /** 2 floats a corner, m, counter-clockwise; copied. Null: no prism */
     outline: Float32Array | null;
     /** 3 to 64 */
     outlineCount: number;
@@ -1162,7 +1166,7 @@ export interface ObstacleDefGiven {
     radius?: number;
     /** m */
     height?: number;
-    /** 2 floats a corner, m, counter-clockwise; copied */
+    /** 2 floats a corner, m, counter-clockwise; copied. Null: no prism */
     outline?: ArrayLike<number> | null;
     /** m, 0 or more: prisms and boxes grow by this, with round edges. Default 0 */
     rounding?: number;

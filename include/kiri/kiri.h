@@ -361,7 +361,7 @@ typedef struct kiriSheetDef {
     int32_t frameCount; /* 0, or 1 and more; default 5 */
     float frameLength;  /* m; used where frameCount is 0; default 0 */
     float accuracy;     /* 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
-    const float* framePoints;
+    const float* framePoints; /* 2 floats a frame, or null */
     int32_t maxFrames; /* re-sampling stops here; default 256 */
     /* Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
        beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). */
@@ -612,10 +612,10 @@ typedef struct kiriPieceState {
 
 /* The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece. */
 typedef struct kiriPieceMesh {
-    const int32_t* vertices;        /* of kiriMesh */
-    const int32_t* triangles;       /* of kiriMesh */
+    const int32_t* vertices;        /* 1 a vertex: its index in kiriMesh */
+    const int32_t* triangles;       /* 1 a triangle: its index in kiriMesh */
     const int32_t* indices;         /* 3 a triangle, as in kiriMesh: draw them */
-    const int32_t* collisionPoints; /* see kiriSheet_GetCollisionPoints */
+    const int32_t* collisionPoints; /* 1 a point, see kiriSheet_GetCollisionPoints */
     int32_t vertexCount, triangleCount, collisionPointCount;
 } kiriPieceMesh;
 
@@ -819,7 +819,7 @@ typedef struct kiriSeamDef {
     uint32_t cookie;
     kiriSheet sheetA, sheetB; /* of the same model, and not planar */
     const float* lineA;       /* 2 floats a point, m, in the material, such as its edge; copied */
-    const float* lineB;
+    const float* lineB;       /* 2 floats a point */
     int32_t countA, countB; /* points: 2 to 65536 */
     int32_t stitches;       /* 2 to 4096; 0 (default): three for two distances of frames */
     float stiffness;  /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
@@ -902,7 +902,7 @@ typedef struct kiriObstacleDef {
     int32_t type;             /* KIRI_OBSTACLE_... */
     float size[3];            /* m */
     float radius, height;     /* m */
-    const float* outline;     /* 2 floats a corner, m, counter-clockwise; copied */
+    const float* outline;     /* 2 floats a corner, m, counter-clockwise; copied. Null: no prism */
     int32_t outlineCount;     /* 3 to 64 */
     float rounding;           /* m, 0 or more: prisms and boxes grow by this, with round edges. Default 0 */
     float position[3];        /* m, world */

@@ -454,16 +454,16 @@ namespace Kiri
             return world;
         }
 
-        /// <summary>of kiriMesh</summary>
+        /// <summary>1 a vertex: its index in kiriMesh</summary>
         public IntView Vertices { get { return new IntView(Now(), raw.vertices, raw.vertexCount); } }
 
-        /// <summary>of kiriMesh</summary>
+        /// <summary>1 a triangle: its index in kiriMesh</summary>
         public IntView Triangles { get { return new IntView(Now(), raw.triangles, raw.triangleCount); } }
 
         /// <summary>3 a triangle, as in kiriMesh: draw them</summary>
         public IntView Indices { get { return new IntView(Now(), raw.indices, 3 * raw.triangleCount); } }
 
-        /// <summary>see kiriSheet_GetCollisionPoints</summary>
+        /// <summary>1 a point, see kiriSheet_GetCollisionPoints</summary>
         public IntView CollisionPoints { get { return new IntView(Now(), raw.collisionPoints, raw.collisionPointCount); } }
 
         public int VertexCount { get { return raw.vertexCount; } }

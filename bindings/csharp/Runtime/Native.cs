@@ -770,6 +770,7 @@ namespace Kiri
         public float FrameLength;
         /// <summary>1e-4 to 1; used where frameCount and frameLength are 0; default 0.02</summary>
         public float Accuracy;
+        /// <summary>2 floats a frame, or null</summary>
         internal float* framePoints;
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
@@ -1054,13 +1055,13 @@ namespace Kiri
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativePieceMesh
     {
-        /// <summary>of kiriMesh</summary>
+        /// <summary>1 a vertex: its index in kiriMesh</summary>
         public int* vertices;
-        /// <summary>of kiriMesh</summary>
+        /// <summary>1 a triangle: its index in kiriMesh</summary>
         public int* triangles;
         /// <summary>3 a triangle, as in kiriMesh: draw them</summary>
         public int* indices;
-        /// <summary>see kiriSheet_GetCollisionPoints</summary>
+        /// <summary>1 a point, see kiriSheet_GetCollisionPoints</summary>
         public int* collisionPoints;
         public int vertexCount;
         public int triangleCount;
@@ -1185,6 +1186,7 @@ namespace Kiri
         public SheetId SheetB;
         /// <summary>2 floats a point, m, in the material, such as its edge; copied</summary>
         internal float* lineA;
+        /// <summary>2 floats a point</summary>
         internal float* lineB;
         /// <summary>points: 2 to 65536</summary>
         internal int countA;
@@ -1286,7 +1288,7 @@ namespace Kiri
         public float Radius;
         /// <summary>m</summary>
         public float Height;
-        /// <summary>2 floats a corner, m, counter-clockwise; copied</summary>
+        /// <summary>2 floats a corner, m, counter-clockwise; copied. Null: no prism</summary>
         internal float* outline;
         /// <summary>3 to 64</summary>
         internal int outlineCount;

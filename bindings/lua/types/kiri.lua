@@ -199,7 +199,7 @@ kiri.DRAW_ALL = 2047
 ---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 5
 ---@field frameLength? number # m; used where frameCount is 0; default 0
 ---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
----@field framePoints? number[]|ffi.cdata*
+---@field framePoints? number[]|ffi.cdata* # 2 floats a frame, or null
 ---@field maxFrames? integer # re-sampling stops here; default 256
 ---@field rigidWeight? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95
 ---@field rigidArea? number # default 0
@@ -345,10 +345,10 @@ kiri.DRAW_ALL = 2047
 
 --- The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece.
 ---@class kiri.PieceMesh
----@field vertices? number[]|ffi.cdata* # of kiriMesh
----@field triangles? number[]|ffi.cdata* # of kiriMesh
+---@field vertices? number[]|ffi.cdata* # 1 a vertex: its index in kiriMesh
+---@field triangles? number[]|ffi.cdata* # 1 a triangle: its index in kiriMesh
 ---@field indices? number[]|ffi.cdata* # 3 a triangle, as in kiriMesh: draw them
----@field collisionPoints? number[]|ffi.cdata* # see kiriSheet_GetCollisionPoints
+---@field collisionPoints? number[]|ffi.cdata* # 1 a point, see kiriSheet_GetCollisionPoints
 ---@field vertexCount? integer
 ---@field triangleCount? integer
 ---@field collisionPointCount? integer
@@ -409,7 +409,7 @@ kiri.DRAW_ALL = 2047
 ---@field sheetA? kiri.Sheet # of the same model, and not planar
 ---@field sheetB? kiri.Sheet # of the same model, and not planar
 ---@field lineA? number[]|ffi.cdata* # 2 floats a point, m, in the material, such as its edge; copied
----@field lineB? number[]|ffi.cdata*
+---@field lineB? number[]|ffi.cdata* # 2 floats a point
 ---@field countA? integer # points: 2 to 65536
 ---@field countB? integer # points: 2 to 65536
 ---@field stitches? integer # 2 to 4096; 0 (default): three for two distances of frames
@@ -456,7 +456,7 @@ kiri.DRAW_ALL = 2047
 ---@field size? number[]|ffi.cdata* # m
 ---@field radius? number # m
 ---@field height? number # m
----@field outline? number[]|ffi.cdata* # 2 floats a corner, m, counter-clockwise; copied
+---@field outline? number[]|ffi.cdata* # 2 floats a corner, m, counter-clockwise; copied. Null: no prism
 ---@field outlineCount? integer # 3 to 64
 ---@field rounding? number # m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
 ---@field position? number[]|ffi.cdata* # m, world

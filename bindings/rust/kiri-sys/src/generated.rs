@@ -455,6 +455,7 @@ pub struct kiriSheetDef {
     pub frameLength: f32,
     /// 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
     pub accuracy: f32,
+    /// 2 floats a frame, or null
     pub framePoints: *const f32,
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
@@ -734,13 +735,13 @@ pub struct kiriPieceState {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPieceMesh {
-    /// of kiriMesh
+    /// 1 a vertex: its index in kiriMesh
     pub vertices: *const i32,
-    /// of kiriMesh
+    /// 1 a triangle: its index in kiriMesh
     pub triangles: *const i32,
     /// 3 a triangle, as in kiriMesh: draw them
     pub indices: *const i32,
-    /// see kiriSheet_GetCollisionPoints
+    /// 1 a point, see kiriSheet_GetCollisionPoints
     pub collisionPoints: *const i32,
     pub vertexCount: i32,
     pub triangleCount: i32,
@@ -855,6 +856,7 @@ pub struct kiriSeamDef {
     pub sheetB: kiriSheet,
     /// 2 floats a point, m, in the material, such as its edge; copied
     pub lineA: *const f32,
+    /// 2 floats a point
     pub lineB: *const f32,
     /// points: 2 to 65536
     pub countA: i32,
@@ -945,7 +947,7 @@ pub struct kiriObstacleDef {
     pub radius: f32,
     /// m
     pub height: f32,
-    /// 2 floats a corner, m, counter-clockwise; copied
+    /// 2 floats a corner, m, counter-clockwise; copied. Null: no prism
     pub outline: *const f32,
     /// 3 to 64
     pub outlineCount: i32,

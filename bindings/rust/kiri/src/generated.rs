@@ -906,7 +906,7 @@ pub struct SheetDef<'a> {
     pub frame_length: f32,
     /// 1e-4 to 1; used where `frame_count` and `frame_length` are 0; default 0.02
     pub accuracy: f32,
-    /// Frame points.
+    /// 2 floats a frame, or null
     pub frame_points: Option<&'a [[f32; 2]]>,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
@@ -1581,13 +1581,13 @@ impl PieceState {
 /// pieces, piece by piece.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceMesh<'a> {
-    /// of [`Mesh`]
+    /// 1 a vertex: its index in [`Mesh`]
     pub vertices: &'a [i32],
-    /// of [`Mesh`]
+    /// 1 a triangle: its index in [`Mesh`]
     pub triangles: &'a [i32],
     /// 3 a triangle, as in [`Mesh`]: draw them
     pub indices: &'a [[i32; 3]],
-    /// see [`Sheet::collision_points`]
+    /// 1 a point, see [`Sheet::collision_points`]
     pub collision_points: &'a [i32],
     /// Vertex count.
     pub vertex_count: i32,
@@ -1832,7 +1832,7 @@ pub struct SeamDef<'a> {
     pub sheet_b: Sheet,
     /// 2 floats a point, m, in the material, such as its edge; copied
     pub line_a: &'a [[f32; 2]],
-    /// Line b.
+    /// 2 floats a point
     pub line_b: &'a [[f32; 2]],
     /// 2 to 4096; 0 (default): three for two distances of frames
     pub stitches: i32,
@@ -2032,7 +2032,7 @@ pub struct ObstacleDef<'a> {
     pub radius: f32,
     /// m
     pub height: f32,
-    /// 2 floats a corner, m, counter-clockwise; copied
+    /// 2 floats a corner, m, counter-clockwise; copied. Null: no prism
     pub outline: &'a [[f32; 2]],
     /// m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
     pub rounding: f32,
