@@ -4,6 +4,7 @@
 #define KIRI_BENCH_H
 
 #include "defaults.h"
+#include "scoped.h"
 #include "kiri/kiri.h"
 
 #include <math.h>

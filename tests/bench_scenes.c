@@ -124,7 +124,7 @@ static bool Record(Recording* recording, int mode, int run)
     def.alloc = CountAlloc;
     def.free = CountFree;
     def.user = &usage;
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     bool fine = type->ticks <= MAX_TICKS && Scene_Start(&scene, type, &def, &options);
     for (int32_t i = 0; fine && i < type->ticks; i++) {
         Facts facts = { .allocations = -usage.calls };
@@ -142,7 +142,6 @@ static bool Record(Recording* recording, int mode, int run)
     recording->grid = scene.gridResolution;
     recording->bytes[mode] = usage.mostBytes;
     fine = fine && kiriWorld_GetStateHash(scene.world, &recording->hash[mode]) == KIRI_OK;
-    Scene_Stop(&scene);
     return fine;
 }
 
@@ -162,7 +161,7 @@ static bool RecordPaced(Recording* recording)
 {
     const SceneOptions options = { .asPaper = true, .pace = recording->paper->pace };
     kiriWorldDef def = Bench_WorldDef();
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     Series series[SHARES] = { { .number = NULL } };
     bool fine = Scene_Start(&scene, recording->type, &def, &options);
     while (fine && scene.tick <= scene.type->lastCut) {
@@ -178,7 +177,6 @@ static bool RecordPaced(Recording* recording)
         recording->shares[k] = Series_Mean(&series[k]);
         Series_Free(&series[k]);
     }
-    Scene_Stop(&scene);
     return fine;
 }
 

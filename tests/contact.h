@@ -4,6 +4,7 @@
 #define CONTACT_H
 
 #include "kiri/kiri.h"
+#include "scoped.h"
 
 /* One line of the table. `law` is what should come out; the line is marked where |value - law| > tolerance. */
 void Contact_Line(const char* name, const char* variant, double value, double law, double tolerance, const char* unit);

@@ -6,7 +6,7 @@
 /* m/s: how fast the sheet slides after so many seconds on a slope; of half a second later. */
 static double SlideSpeed(const TouchingDef* def, double friction, double angle)
 {
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     double gravity[3], from = 0.0;
     Plane floor = Touching_Floor(friction);
     Touching_Slope(angle, gravity);
@@ -17,7 +17,6 @@ static double SlideSpeed(const TouchingDef* def, double friction, double angle)
         Touching_Tick(&t, &floor);
     }
     double speed = (Touching_Totals(&t).center[0] - from) / (def->dt * (ticks - settled));
-    Touching_Stop(&t);
     return speed;
 }
 
@@ -61,7 +60,7 @@ static void MeasureStopping(void)
         TouchingDef def = Touching_Def(kind, frames);
         const double gravity[3] = { 0.0, 0.0, -9.81 };
         Plane floor = Touching_Floor(0.4);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         def.speed[0] = 2.0;
         def.substeps = substeps;
@@ -74,7 +73,6 @@ static void MeasureStopping(void)
         snprintf(variant, sizeof variant, "%s, %d frames, %d substeps", kind ? "cloth" : "plate", frames * frames,
                  substeps);
         Contact_Line("stopping distance", variant, way, law, 0.05 * law, "m");
-        Touching_Stop(&t);
     }
 }
 
@@ -85,7 +83,7 @@ static void MeasureConveyor(void)
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, frames);
         const double gravity[3] = { 0.0, 0.0, -9.81 };
         Plane belt = Touching_Floor(0.3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         double reached = 0.0, last = 0.0;
         belt.velocity[0] = 1.0;
@@ -100,7 +98,6 @@ static void MeasureConveyor(void)
         snprintf(variant, sizeof variant, "cloth, %d frames, mu 0.3", frames * frames);
         Contact_Line("conveyor: speed", variant, last, 1.0, 1e-3, "m/s");
         Contact_Line("conveyor: time", variant, reached, 0.99 / (0.3 * 9.81), 2.0 * def.dt, "s");
-        Touching_Stop(&t);
     }
 }
 
@@ -117,7 +114,7 @@ static void MeasureImpact(double ratio, int substeps, int frames)
 {
     TouchingDef def = Touching_Def(TOUCHING_PLATE, frames);
     const double none[3] = { 0.0, 0.0, 0.0 };
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     char variant[64];
     def.substeps = substeps;
     def.height = 0.1;
@@ -141,7 +138,6 @@ static void MeasureImpact(double ratio, int substeps, int frames)
     Contact_Limit("impact: energy gained", variant, gained, 1e-3, "");
     Contact_Line("impact: sheet's speed", variant, now.momentum[2] / now.mass, together, 0.15, "m/s");
     Contact_Line("impact: body's speed", variant, body.velocity[2], together, 0.15, "m/s");
-    Touching_Stop(&t);
 }
 
 /* A body falls on a sheet that lies on the floor; or the sheet falls on a body in the air that gravity lets fall after
@@ -151,7 +147,7 @@ static void MeasureCrate(double ratio, int frames)
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, frames);
     const double gravity[3] = { 0.0, 0.0, -9.81 };
     static kiriContact contacts[2 * TOUCHING_MOST_POINTS];
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     char variant[64];
     Touching_Start(&t, &def, gravity);
     Plane floor = Touching_Floor(0.5),
@@ -179,7 +175,6 @@ static void MeasureCrate(double ratio, int frames)
     Contact_Limit("crate: deepest", variant, 1e3 * deepest, 1.0, "mm");
     Contact_Limit("crate: at rest", variant, fabs(crate.velocity[2]), 1e-3, "m/s");
     Contact_Limit("crate: sheet's speed up", variant, sheet, 0.2, "m/s");
-    Touching_Stop(&t);
 }
 
 static void MeasureMomentum(void)
@@ -218,7 +213,7 @@ static void MeasureDepth(void)
         TouchingDef def = Touching_Def(k / 4 ? TOUCHING_CLOTH : TOUCHING_PLATE, 5);
         const double gravity[3] = { 0.0, 0.0, -9.81 };
         Plane floor = Touching_Floor(0.5);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         Touching_Start(&t, &def, gravity);
         for (int tick = 0; tick < 120; ++tick) {
@@ -229,7 +224,6 @@ static void MeasureDepth(void)
         Contact_Limit("depth at rest", variant, 1e3 * t.deepest, 0.1, "mm");
         double law = (load + 1.0) * t.mass * 9.81 * def.dt;
         Contact_Line("force at rest", variant, t.impulse[2] / law, 1.0, 1e-3, "");
-        Touching_Stop(&t);
     }
 }
 
@@ -240,7 +234,7 @@ static void MeasureSpeed(void)
         TouchingDef def = Touching_Def(k % 2 ? TOUCHING_CLOTH : TOUCHING_PLATE, 5);
         const double gravity[3] = { 0.0, 0.0, -9.81 };
         Plane wall = Touching_Floor(0.3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         double deepest = 0.0, rebound = 0.0;
         def.speed[0] = k / 2 ? 70.0 : 0.0;
@@ -255,7 +249,6 @@ static void MeasureSpeed(void)
         snprintf(variant, sizeof variant, "%s%s", k % 2 ? "cloth" : "plate", k / 2 ? ", aslant" : "");
         Contact_Limit("100 m/s: deepest", variant, 1e3 * deepest, 10.0, "mm");
         Contact_Limit("100 m/s: speed up", variant, rebound, 1.0, "m/s");
-        Touching_Stop(&t);
     }
 }
 
@@ -267,7 +260,7 @@ static void MeasurePush(void)
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 5);
         const double gravity[3] = { 0.0, 0.0, -9.81 };
         Plane floor = Touching_Floor(0.3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         double fastest = 0.0;
         floor.pushSpeed = k / 3 ? 0.5 : 0.0;
@@ -280,7 +273,6 @@ static void MeasurePush(void)
         snprintf(variant, sizeof variant, "%g mm deep, %g m/s", 1e3 * depths[k % 3], k / 3 ? 0.5 : 1.0);
         Contact_Limit("pushed out: fastest", variant, fastest, k / 3 ? 0.51 : 1.02, "m/s");
         Contact_Limit("pushed out: left", variant, 1e3 * t.deepest, 0.1, "mm");
-        Touching_Stop(&t);
     }
 }
 
@@ -290,7 +282,7 @@ static void MeasureLift(void)
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 5);
     const double gravity[3] = { 0.0, 0.0, -9.81 };
     Plane floor = Touching_Floor(0.3);
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     double slip = 0.0;
     Touching_Start(&t, &def, gravity);
     for (int tick = 0; tick < 120; ++tick) {
@@ -303,7 +295,6 @@ static void MeasureLift(void)
     kiriTotals now = Touching_Totals(&t);
     Contact_Limit("lift: lag", "plate", 1e3 * slip, 0.5, "mm");
     Contact_Line("lift: carried along", "plate", now.center[0] - 0.2, floor.at[0], 1e-3, "m");
-    Touching_Stop(&t);
 }
 
 /* ---- Sums -------------------------------------------------------------------------------------------------------- */
@@ -327,7 +318,7 @@ static void MeasureSums(void)
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         double gravity[3], off = 0.0, turned = 0.0;
         Plane floor = Touching_Floor(0.4);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         char variant[64];
         def.model = model;
         def.height = 0.05;
@@ -350,7 +341,6 @@ static void MeasureSums(void)
         snprintf(variant, sizeof variant, "model %d", model);
         Contact_Limit("sum of impulses", variant, off, 1e-9, "weight");
         Contact_Limit("sum of their moments", variant, turned, 1e-2, "");
-        Touching_Stop(&t);
     }
 }
 

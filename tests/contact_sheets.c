@@ -153,7 +153,7 @@ static double OverlapOf(const SceneType* type, int touches)
 {
     kiriWorldDef def;
     SceneOptions options;
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     double worst = 0.0;
     kiriDefaultWorldDef(&def);
     memset(&options, 0, sizeof options);
@@ -171,7 +171,6 @@ static double OverlapOf(const SceneType* type, int touches)
             worst = area > worst ? area : worst;
         }
     }
-    Scene_Stop(&scene);
     return 1e4 * worst;
 }
 

@@ -5,6 +5,7 @@
 
 #include "defaults.h"
 #include "kiri/kiri.h"
+#include "scoped.h"
 #include "support.h"
 #include "validate.h"
 
@@ -125,8 +126,9 @@ static inline void Host_Start(Host* host)
     assert_int_equal(kiriCreateWorld(&def, &host->world), KIRI_OK);
 }
 
-/* Declares a host, which stops at the end of its scope; and starts it. */
-#define HOST(name) __attribute__((cleanup(Host_Stop))) Host name = { .world = NULL }
+/* Declare a host, or two, which stop at the end of their scope; the last one starts it too. */
+#define HOST(name) SCOPED(Host, name, Host_Stop)
+#define HOST_PAIR(name) __attribute__((cleanup(Host_StopPair))) Host name[2] = { { 0 } }
 #define START_HOST(name)                                                                                               \
     HOST(name);                                                                                                        \
     Host_Start(&name)
@@ -172,6 +174,12 @@ static inline void Host_Stop(Host* host)
         Host_Validate(host);
         Host_Destroy(host);
     }
+}
+
+static inline void Host_StopPair(Host (*hosts)[2])
+{
+    Host_Stop(&(*hosts)[0]);
+    Host_Stop(&(*hosts)[1]);
 }
 
 static inline uint64_t Host_Hash(const Host* host)

@@ -2,6 +2,8 @@
 #ifndef KIRI_TEST_SUPPORT_H
 #define KIRI_TEST_SUPPORT_H
 
+#include "scoped.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -60,7 +60,9 @@ static inline void Tape_Stop(Tape* tape)
 
 static inline void Tape_Free(Tape* tape)
 {
+    Host_Stop(&tape->host);
     free(tape->bytes);
+    tape->bytes = NULL;
 }
 
 /* Up to the next tick or note. */

@@ -21,6 +21,11 @@ static kiriSheetDef Def(int32_t grid, int32_t frames)
 }
 
 /* A sheet of 1 m in the plane of x and y, that nothing pulls at. */
+static void Stage_Stop(Stage* stage)
+{
+    Host_Stop(&stage->host);
+}
+
 static void Stage_StartFlat(Stage* stage, int32_t grid, int32_t frames)
 {
     kiriSheetDef def = Def(grid, frames);
@@ -137,7 +142,7 @@ static void Finish(Stage* stage)
 
 static void CheckSwipe(const Swipe* swipe)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     const kiriBudget budget = { 4 * swipe->budget, 40 * swipe->budget, 40 * swipe->budget, 0 };
     Stage_StartCurtain(&stage, swipe->grid, swipe->motion == AT_REST ? 100 : 20);
     OK(kiriWorld_SetBudget(stage.host.world, &budget));
@@ -156,7 +161,6 @@ static void CheckSwipe(const Swipe* swipe)
                  (int)swipe->grid, (int)swipe->steps, (int)swipe->motion, (int)swipe->budget, swipe->height,
                  swipe->wave, (int)Pieces(&stage), LeastArea(&stage));
     }
-    Host_Stop(&stage.host);
 }
 
 /* Once across, in one step or many, part it, each time. */
@@ -183,7 +187,7 @@ TEST(SwipesPart)
 static bool IsDiscCut(int k, int32_t held, double radius, double widening)
 {
     static const float eye[3] = { 0.5f, -2.0f, 0.5f }, none[3] = { 0.0f, 0.0f, 0.0f };
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     int32_t steps = 6 + 7 * k, large = 0, count;
     Stage_StartCurtain(&stage, 16 + 2 * k, 20);
     Begin(&stage);
@@ -203,7 +207,6 @@ static bool IsDiscCut(int k, int32_t held, double radius, double widening)
         kiriPieceState piece = World_PieceState(stage.host.world, stage.sheet, i);
         large += piece.area > 2.0 * radius * radius;
     }
-    Host_Stop(&stage.host);
     return large == 2;
 }
 
@@ -233,7 +236,7 @@ TEST(CirclesAfterWaiting)
 TEST(ClosedLoop)
 {
     static const double corners[5][2] = { { 0.3, 0.3 }, { 0.7, 0.32 }, { 0.68, 0.7 }, { 0.31, 0.69 }, { 0.3, 0.3 } };
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
     for (int k = 0; k < 5; ++k) {
@@ -243,13 +246,12 @@ TEST(ClosedLoop)
     EndAndTick(&stage);
     assert_int_equal(Pieces(&stage), 2);
     assert_true(LeastArea(&stage) > 0.1);
-    Host_Stop(&stage.host);
 }
 
 /* A blade that stands in a sheet at rest does nothing. */
 TEST(StandsStill)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
     uint32_t revision = Host_Mesh(&stage.host, stage.sheet).revision;
@@ -264,13 +266,12 @@ TEST(StandsStill)
     EndAndTick(&stage);
     assert_int_equal(Host_Mesh(&stage.host, stage.sheet).revision, revision);
     assert_int_equal(Pieces(&stage), 1);
-    Host_Stop(&stage.host);
 }
 
 /* Out over a border, back in, and out again: each time it parts. */
 TEST(LeavesAndComesBack)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
     Draw(&stage, -0.1, 0.25, 1.1, 0.31, 11);
@@ -283,13 +284,12 @@ TEST(LeavesAndComesBack)
     EndAndTick(&stage);
     assert_int_equal(Pieces(&stage), 8);
     assert_true(LeastArea(&stage) > 0.01);
-    Host_Stop(&stage.host);
 }
 
 /* An edge that ends above the sheet for half of its way cuts the other half. */
 TEST(ShortEdge)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     double longest = 0.0;
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
@@ -307,14 +307,13 @@ TEST(ShortEdge)
         longest = rest[0] > longest ? rest[0] : longest;
     }
     assert_float_equal(longest, 0.503f, 1e-4f);
-    Host_Stop(&stage.host);
 }
 
 /* An edge that turns while it moves, fast. */
 TEST(TurningEdge)
 {
     for (int steps = 1; steps < 12; steps += 5) {
-        Stage stage;
+        SCOPED(Stage, stage, Stage_Stop);
         Stage_StartFlat(&stage, 16, 8);
         Begin(&stage);
         for (int k = 0; k <= steps; ++k) {
@@ -327,7 +326,6 @@ TEST(TurningEdge)
         EndAndTick(&stage);
         assert_int_equal(Pieces(&stage), 2);
         assert_true(LeastArea(&stage) > 0.2);
-        Host_Stop(&stage.host);
     }
 }
 
@@ -366,7 +364,7 @@ TEST(Fold)
     for (int k = 0; k < 9; ++k) {
         static const int32_t steps[3] = { 1, 20, 111 };
         const double* way = ways[k / 3];
-        Stage stage;
+        SCOPED(Stage, stage, Stage_Stop);
         StartFolded(&stage);
         Begin(&stage);
         Draw(&stage, way[0], way[1], way[2], way[3], steps[k % 3]);
@@ -375,7 +373,6 @@ TEST(Fold)
             fail_msg("way %d, %d steps: %d pieces, the least %g", k / 3, (int)steps[k % 3], (int)Pieces(&stage),
                      LeastArea(&stage));
         }
-        Host_Stop(&stage.host);
     }
 }
 
@@ -396,7 +393,7 @@ TEST(SeveralPieces)
 {
     for (int steps = 1; steps <= 40; steps += 13) {
         static const float lines[2][4] = { { 0.35f, -0.1f, 0.35f, 1.1f }, { 0.7f, -0.1f, 0.7f, 1.1f } };
-        Stage stage;
+        SCOPED(Stage, stage, Stage_Stop);
         Stage_StartFlat(&stage, 16, 12);
         Host_Cut(&stage.host, stage.sheet, lines[0], 2);
         Host_Cut(&stage.host, stage.sheet, lines[1], 2);
@@ -410,14 +407,13 @@ TEST(SeveralPieces)
         if (Pieces(&stage) != 6 || LeastArea(&stage) < 0.02) {
             fail_msg("%d steps: %d pieces, the least %g", steps, (int)Pieces(&stage), LeastArea(&stage));
         }
-        Host_Stop(&stage.host);
     }
 }
 
 /* One blade for all sheets. */
 TEST(AllSheets)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     kiriSheet others[2];
     Stage_StartFlat(&stage, 16, 8);
     kiriSheetDef def = Def(12, 6);
@@ -432,7 +428,6 @@ TEST(AllSheets)
     assert_int_equal(Pieces(&stage), 2);
     assert_int_equal(Host_Counts(&stage.host, others[0]).pieces, 2);
     assert_int_equal(Host_Counts(&stage.host, others[1]).pieces, 2);
-    Host_Stop(&stage.host);
 }
 
 /* ---- Sheets that move ---- */
@@ -440,7 +435,7 @@ TEST(AllSheets)
 /* A blade that falls with the sheet and crosses it meanwhile leaves one straight line, without hairs at its steps. */
 TEST(FallsAlong)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     kiriSheetDef def = Def(16, 8);
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
@@ -464,7 +459,6 @@ TEST(FallsAlong)
     for (int32_t v = 17 * 17; v < mesh.vertexCount; ++v) {
         assert_float_equal(mesh.restPositions[2 * (size_t)v + 1], 0.53f, 2e-3f);
     }
-    Host_Stop(&stage.host);
 }
 
 /* A piece gets a sheet of its own while the blade is in it: a blade for all goes on in it. */
@@ -472,7 +466,7 @@ TEST(Detached)
 {
     static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.3f };
     for (int lower = 0; lower < 2; ++lower) {
-        Stage stage;
+        SCOPED(Stage, stage, Stage_Stop);
         kiriSheet detached;
         Stage_StartFlat(&stage, 16, 8);
         Host_Cut(&stage.host, stage.sheet, line, 2);
@@ -490,7 +484,6 @@ TEST(Detached)
         EndAndTick(&stage);
         assert_int_equal(Pieces(&stage), lower ? 1 : 2);
         assert_int_equal(Host_Counts(&stage.host, detached).pieces, lower ? 2 : 1);
-        Host_Stop(&stage.host);
     }
 }
 
@@ -499,7 +492,7 @@ TEST(Detached)
 TEST(OpensAtOnce)
 {
     const double dt = 1.0 / 60.0, fallen = 0.75 * 9.81 * dt * dt;
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     Stage_StartCurtain(&stage, 32, 200);
     static const float from[3] = { -0.2f, -1.0f, 0.5f }, to[3] = { -0.2f, 1.0f, 0.5f };
     static const float beyond[2][3] = { { 1.2f, -1.0f, 0.5f }, { 1.2f, 1.0f, 0.5f } };
@@ -524,7 +517,6 @@ TEST(OpensAtOnce)
     if (gap / lips < 0.7 * fallen) {
         fail_msg("lips are %g m apart, and %g m have been fallen", gap / lips, fallen);
     }
-    Host_Stop(&stage.host);
 }
 
 /* ---- Calls ---- */
@@ -532,7 +524,7 @@ TEST(OpensAtOnce)
 /* What is refused, and that it changes nothing. */
 TEST(Refusals)
 {
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     kiriBlade blade = 0;
     float a[3] = { 0.0f, 0.5f, -1.0f }, b[3] = { 0.0f, 0.5f, 1.0f }, zero[3] = { 0.0f, 0.0f, 0.0f };
     Stage_StartFlat(&stage, 8, 4);
@@ -562,7 +554,6 @@ TEST(Refusals)
     OK(kiriBlade_End(w, stage.blade));
     assert_int_equal(kiriBlade_End(w, stage.blade), KIRI_ERROR_ID);
     assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, b, b), KIRI_ERROR_ID);
-    Host_Stop(&stage.host);
 }
 
 /* Edges of any size, and of none. */
@@ -574,7 +565,7 @@ TEST(ExtremeEdges)
         { -1.0f, 0.4f, 0.0f, 2.0f, 0.4f, 0.0f },   { 0.3f, 0.3f, -1e-30f, 0.3f, 0.3f, 1e-30f },
         { 0.2f, 0.2f, -1.0f, 0.8f, 0.8f, 1.0f },   { 0.8f, 0.8f, 1.0f, 0.2f, 0.2f, -1.0f }
     };
-    Stage stage;
+    SCOPED(Stage, stage, Stage_Stop);
     Stage_StartFlat(&stage, 8, 4);
     Begin(&stage);
     for (int k = 0; k < 64; ++k) {
@@ -583,7 +574,6 @@ TEST(ExtremeEdges)
         OK(Host_Tick(&stage.host, 1e-3f, 1));
     }
     OK(kiriBlade_End(stage.host.world, stage.blade));
-    Host_Stop(&stage.host);
 }
 
 enum { CALLS = 24 };
@@ -606,7 +596,7 @@ TEST(RaysMakeNoDifference)
 {
     uint64_t hashes[2];
     for (int asks = 0; asks < 2; ++asks) {
-        Stage stage;
+        SCOPED(Stage, stage, Stage_Stop);
         Stage_StartFlat(&stage, 16, 8);
         for (int k = 0; k < CALLS; ++k) {
             const float origin[3] = { 0.3f, 0.4f, 2.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
@@ -617,7 +607,6 @@ TEST(RaysMakeNoDifference)
             }
         }
         hashes[asks] = Host_Hash(&stage.host);
-        Host_Stop(&stage.host);
     }
     assert_true(hashes[0] == hashes[1]);
 }

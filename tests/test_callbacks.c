@@ -286,7 +286,7 @@ static double TickOther(void* user)
 
 TEST(OtherWorld)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     Host_Start(&hosts[0]);
     other = hosts[0].world;
     memset(&hosts[1], 0, sizeof(hosts[1]));
@@ -295,6 +295,4 @@ TEST(OtherWorld)
     def.clock = TickOther;
     OK(kiriCreateWorld(&def, &hosts[1].world));
     OK(kiriWorld_Tick(hosts[1].world, 1.0f / 60.0f, 1));
-    Host_Stop(&hosts[1]);
-    Host_Stop(&hosts[0]);
 }

@@ -30,7 +30,7 @@ TEST(FrictionAngle)
         double friction = frictions[k % 3], degree = 0.017453292519943295, gravity[3], from = 0.0;
         TouchingDef def = Touching_Def(k / 6, k / 3 % 2 ? 5 : 1);
         Plane floor = Touching_Floor(friction);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         Touching_Slope(atan(friction) - degree, gravity);
         Touching_Start(&t, &def, gravity);
         for (int tick = 0; tick < 120; ++tick) {
@@ -51,7 +51,6 @@ TEST(FrictionAngle)
             Touching_Tick(&t, &floor);
         }
         AssertWithin(MeanSpeed(&t, 0) - from, pull, 0.01 * friction * 9.81, "gain of speed in a second");
-        Touching_Stop(&t);
     }
 }
 
@@ -60,7 +59,7 @@ TEST(Stopping)
     for (int k = 0; k < 4; ++k) {
         TouchingDef def = Touching_Def(k % 2, 5);
         Plane floor = Touching_Floor(0.4);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         def.speed[0] = 2.0;
         def.substeps = k / 2 ? 4 : 1;
         def.model = k == 3 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
@@ -70,7 +69,6 @@ TEST(Stopping)
         }
         double law = 4.0 / (2.0 * 0.4 * 9.81);
         AssertWithin(Touching_Totals(&t).center[0] - 0.2, law, 0.05 * law, "stopping distance");
-        Touching_Stop(&t);
     }
 }
 
@@ -79,7 +77,7 @@ TEST(Conveyor)
 {
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, 5);
     Plane belt = Touching_Floor(0.3);
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     belt.velocity[0] = 1.0;
     Touching_Start(&t, &def, down);
     for (int tick = 0; tick < 60; ++tick) {
@@ -90,7 +88,6 @@ TEST(Conveyor)
     }
     AssertWithin(MeanSpeed(&t, 0), 1.0, 1e-3, "speed of the belt");
     AssertWithin(t.impulse[0], 0.0, 1e-3 * t.mass * 9.81 * def.dt, "no force at its speed");
-    Touching_Stop(&t);
 }
 
 /* A lift carries the sheet up and along, and slows down no faster than it falls. */
@@ -98,7 +95,7 @@ TEST(Lift)
 {
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
     Plane floor = Touching_Floor(0.3);
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     Touching_Start(&t, &def, down);
     for (int tick = 0; tick < 90; ++tick) {
         double pace = tick < 20 ? 0.0 : tick < 50 ? (tick - 19) / 30.0 : tick < 80 ? (79 - tick) / 30.0 : 0.0;
@@ -110,7 +107,6 @@ TEST(Lift)
         }
     }
     AssertWithin(Touching_Totals(&t).center[0] - 0.2, floor.at[0], 1e-3, "carried along");
-    Touching_Stop(&t);
 }
 
 /* ---- Impulses ---------------------------------------------------------------------------------------------------- */
@@ -128,7 +124,7 @@ TEST(SumsOfImpulses)
         double gravity[3];
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         Plane floor = Touching_Floor(0.4);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         def.model = k % 3;
         def.substeps = k / 3 ? 4 : 1;
         def.height = 0.03;
@@ -149,7 +145,6 @@ TEST(SumsOfImpulses)
                 AssertWithin(OwnTurning(&after) - OwnTurning(&before), moment, 1e-7 * unit, "sum of moments");
             }
         }
-        Touching_Stop(&t);
     }
 }
 
@@ -159,7 +154,7 @@ TEST(RestAndHolds)
     for (int held = 0; held < 2; ++held) {
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         Plane floor = Touching_Floor(0.5);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         kiriFrame frames[16];
         int32_t count;
         double force[3] = { 0.0, 0.0, 0.0 }, torque[3];
@@ -180,7 +175,6 @@ TEST(RestAndHolds)
         }
         assert_true(t.deepest < 1e-5 && t.impulse[2] > 0.2 * t.mass * 9.81 * def.dt);
         AssertWithin(t.impulse[2] / def.dt + force[2], t.mass * 9.81, 1e-2 * t.mass * 9.81, "weight");
-        Touching_Stop(&t);
     }
 }
 
@@ -192,7 +186,7 @@ TEST(MassRatios)
     for (int k = 0; k < 14; ++k) {
         double ratio = pow(10.0, k % 7 - 3);
         TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         def.substeps = k / 7 ? 8 : 1;
         def.height = 0.1;
         def.speed[2] = -3.0;
@@ -210,7 +204,6 @@ TEST(MassRatios)
         }
         AssertWithin(MeanSpeed(&t, 2), together, 0.1, "speed of the sheet");
         AssertWithin(body.velocity[2], together, 0.1, "speed of the body");
-        Touching_Stop(&t);
     }
 }
 
@@ -222,7 +215,7 @@ TEST(Crates)
     for (int k = 0; k < 7; ++k) {
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         Plane floor = Touching_Floor(0.5), crate = { { 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.2 }, { 0.0 }, 0.5, 0.0, 0.0 };
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         Touching_Start(&t, &def, down);
         crate.mass = t.mass * pow(10.0, k - 3);
         for (int tick = 0; tick < 90; ++tick) {
@@ -240,7 +233,6 @@ TEST(Crates)
             assert_true(crate.velocity[2] < 0.05 && MeanSpeed(&t, 2) < 0.05 && crate.at[2] > -1e-3);
         }
         AssertWithin(crate.velocity[2], 0.0, 1e-3, "crate at rest");
-        Touching_Stop(&t);
     }
 }
 
@@ -253,14 +245,13 @@ TEST(Loads)
         TouchingDef def = Touching_Def(k / 4, 5);
         const double gravity[3] = { 0.0, 0.0, -9.81 * load };
         Plane floor = Touching_Floor(0.5);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         Touching_Start(&t, &def, gravity);
         for (int tick = 0; tick < 90; ++tick) {
             Touching_Tick(&t, &floor);
         }
         assert_true(t.deepest < 1e-4);
         AssertWithin(t.impulse[2], load * t.mass * 9.81 * def.dt, 1e-3 * load * t.mass * 9.81 * def.dt, "weight");
-        Touching_Stop(&t);
     }
 }
 
@@ -270,7 +261,7 @@ TEST(Fast)
     for (int k = 0; k < 12; ++k) {
         TouchingDef def = Touching_Def(k % 2, k / 2 % 2 ? 5 : 1);
         Plane wall = Touching_Floor(0.3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         def.dt = k / 4 == 0 ? 1.0 / 30.0 : k / 4 == 1 ? 1.0 / 60.0 : 1.0 / 240.0;
         def.speed[2] = -100.0;
         def.height = 2.0;
@@ -281,7 +272,6 @@ TEST(Fast)
             assert_true(MeanSpeed(&t, 2) < 0.5);
         }
         AssertWithin(Touching_Totals(&t).center[2], 0.0, 2e-3, "height");
-        Touching_Stop(&t);
     }
 }
 
@@ -292,7 +282,7 @@ TEST(PushSpeed)
         double fastest = 0.0, speed = speeds[k] > 0.0 ? speeds[k] : 1.0;
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         Plane floor = Touching_Floor(0.3);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         floor.pushSpeed = speeds[k];
         def.height = -0.1;
         Touching_Start(&t, &def, down);
@@ -302,7 +292,6 @@ TEST(PushSpeed)
         }
         AssertWithin(fastest, speed, 0.02 * speed, "speed out of the floor");
         assert_true(t.deepest < 1e-5);
-        Touching_Stop(&t);
     }
 }
 
@@ -328,7 +317,7 @@ TEST(RestPoints)
     kiriContact contacts[4];
     const kiriContactForce* forces;
     int32_t count;
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     def.points = 0;
     Touching_Start(&t, &def, down);
     for (int tick = 0; tick < 60; ++tick) {
@@ -358,7 +347,6 @@ TEST(RestPoints)
     }
     contacts[0].restPoint[0] = 0.5f;
     assert_int_equal(kiriSheet_SetContacts(t.world, t.sheet, contacts, 4), KIRI_ERROR_ARGUMENT);
-    Touching_Stop(&t);
 }
 
 static bool Sleeps(const Touching* t)
@@ -383,7 +371,7 @@ TEST(Sleep)
 {
     for (int k = 0; k < 4; ++k) {
         Plane floor = Touching_Floor(0.5);
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         LieDown(&t, &floor);
         AssertWithin(t.impulse[2], t.mass * 9.81 * t.def.dt, 1e-3 * t.mass * 9.81 * t.def.dt, "weight asleep");
         if (k == 0) {
@@ -400,7 +388,6 @@ TEST(Sleep)
         }
         assert_true(k != 0 || MeanSpeed(&t, 0) > 0.1);
         assert_true(k != 2 || MeanSpeed(&t, 2) < -0.5);
-        Touching_Stop(&t);
     }
 }
 
@@ -408,7 +395,7 @@ TEST(Sleep)
 TEST(ForcesAreOfTheLastTick)
 {
     Plane floor = Touching_Floor(0.5);
-    Touching t;
+    SCOPED(Touching, t, Touching_Stop);
     const kiriContactForce* forces;
     int32_t count;
     LieDown(&t, &floor);
@@ -419,7 +406,6 @@ TEST(ForcesAreOfTheLastTick)
     assert_int_equal(count, 0);
     assert_int_equal(kiriSheet_GetContactForces(t.world, t.sheet, NULL, &count), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_GetContactForces(t.world, 0, &forces, &count), KIRI_ERROR_ID);
-    Touching_Stop(&t);
 }
 
 /* A planar sheet that stands on a floor in its plane. */
@@ -429,7 +415,7 @@ TEST(Planar)
         TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
         const double along[3] = { 0.0, -9.81, 0.0 };
         Plane floor = { { 0.0, 1.0, 0.0 }, { 0.0, -0.02, 0.0 }, { 0.0 }, 0.5, 0.0, 0.0 };
-        Touching t;
+        SCOPED(Touching, t, Touching_Stop);
         def.planar = 1;
         def.model = model;
         def.points = 400;
@@ -441,6 +427,5 @@ TEST(Planar)
         assert_true(t.deepest < 1e-4);
         AssertWithin(t.impulse[1], t.mass * 9.81 * def.dt, 1e-2 * t.mass * 9.81 * def.dt, "weight");
         AssertWithin(MeanSpeed(&t, 0), 0.0, 1e-3, "it stopped");
-        Touching_Stop(&t);
     }
 }

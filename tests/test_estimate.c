@@ -74,8 +74,7 @@ static void TakeCutMesh(Host* host, const Sheet* s, kiriSheetDef* def)
 static kiriPin Clamp(Host* host, kiriSheet sheet, const Sheet* s, float u)
 {
     const float from[2] = { u, 0.0f }, to[2] = { u, s->width };
-    kiriPin clamp = World_Clamp(host->world, sheet, from, to);
-    return clamp;
+    return World_Clamp(host->world, sheet, from, to);
 }
 
 /* Rows of frames, as square as `count` allows, each moved by up to a quarter of the spacing. Returns how many. */

@@ -142,8 +142,7 @@ TEST(SettingsAreChecked)
 static kiriPointState PointAt(const Host* host, kiriSheet sheet, float u, float v)
 {
     const float rest[2] = { u, v };
-    kiriPointState state = World_PointState(host->world, sheet, rest);
-    return state;
+    return World_PointState(host->world, sheet, rest);
 }
 
 static double Apart(const float* a, const float* b)
@@ -639,8 +638,7 @@ static kiriPointState HangHalf(float push)
         OK(Host_Tick(&host, DT, 2));
         OK(kiriSheet_ApplyForce(host.world, sheet, pushed, force, none));
     }
-    kiriPointState tip = PointAt(&host, sheet, 0.2f, 0.02f);
-    return tip;
+    return PointAt(&host, sheet, 0.2f, 0.02f);
 }
 
 /* What is seen of one piece does not move the clamp for another. */
@@ -1022,7 +1020,7 @@ static kiriSheet HangIn(Host* host, bool isYUp)
 
 TEST(NoAxisIsUp)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriSheet sheets[2] = { HangIn(&hosts[0], false), HangIn(&hosts[1], true) };
     double moved = 0.0;
     for (int i = 0; i < 60; ++i) {
@@ -1037,6 +1035,4 @@ TEST(NoAxisIsUp)
         }
     }
     assert_true(moved > 0.1);
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }

@@ -305,7 +305,7 @@ TEST(WeldsSoupsOfAnyMesh)
 {
     uint32_t seed = 41;
     for (int i = 0; i < 60; ++i) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         MakeAny(&A, &seed);
         MakeSoup(&A, &B);
         Host_Start(&hosts[0]);
@@ -314,8 +314,6 @@ TEST(WeldsSoupsOfAnyMesh)
         Add(&hosts[1], &B, (float)RandomBetween(&seed, 1e-6, 1e-2));
         CheckSame(&hosts[0], &hosts[1]);
         CutBoth(&hosts[0], &hosts[1], &seed);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 
@@ -417,7 +415,7 @@ TEST(LeavesOutUnusedVertices)
     uint32_t seed = 44;
     for (int i = 0; i < 40; ++i) {
         int32_t to[MOST_VERTICES];
-        Host hosts[2];
+        HOST_PAIR(hosts);
         MakeAny(&A, &seed);
         memset(&B, 0, sizeof(B));
         for (int32_t v = 0; v < A.vertices; ++v) {
@@ -436,8 +434,6 @@ TEST(LeavesOutUnusedVertices)
         Add(&hosts[1], &B, i % 2 == 0 ? 0.0f : 1e-6f);
         CheckSame(&hosts[0], &hosts[1]);
         CutBoth(&hosts[0], &hosts[1], &seed);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 

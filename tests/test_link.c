@@ -56,7 +56,7 @@ static void CheckCorner(const Links* l, const kiriCorner* corner)
 /* Three rows, the middle one shifted by half a region: three regions meet at each corner. */
 TEST(CornersOfShiftedRows)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Release);
     Links links;
     kiriSite sites[12];
     Scene_Init(&scene, 1.0, 0.75, 4, 3, 60);
@@ -75,7 +75,6 @@ TEST(CornersOfShiftedRows)
         area += corner->area;
     }
     AssertNear(area, 12 * 0.5 * 0.25 * 0.25, 1e-6);
-    Scene_Release(&scene);
 }
 
 /* On randomly cut sheets: links are in order, no shorter than the straight line, and join what hangs together; and
@@ -85,7 +84,7 @@ TEST(RandomSheetsAddUp)
     uint32_t seed = 3;
     int32_t found = 0, corners = 0;
     for (int round = 0; round < 150; ++round) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Release);
         kiriSites sites;
         Links links;
         Scene_InitRandom(&scene, &sites, 2 + (int32_t)(Random(&seed) % 20), &seed);
@@ -123,7 +122,6 @@ TEST(RandomSheetsAddUp)
         free(sums);
         free(counts);
         kiriArray_Release(&scene.memory, &sites);
-        Scene_Release(&scene);
     }
     assert_true(found > 1000);
     assert_true(corners > 200);
@@ -296,7 +294,7 @@ TEST(BordersAreThoseOfVoronoi)
         uint32_t first = seed;
         for (int r = 0; r < 4; ++r) {
             enum { ROWS = 6 };
-            Scene scene;
+            SCOPED(Scene, scene, Scene_Release);
             Links links;
             kiriSite sites[ROWS * ROWS];
             seed = first;
@@ -312,7 +310,6 @@ TEST(BordersAreThoseOfVoronoi)
                 CheckCorner(&links, &links.made.corners.data[k]);
             }
             AssertNear(sum[r], sum[0], 1e-5);
-            Scene_Release(&scene);
         }
     }
 }
@@ -360,14 +357,13 @@ TEST(LinksAreContinuous)
     for (int net = 0; net < NETS; ++net) {
         enum { ROWS = 4 };
         uint32_t seed = 5;
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Release);
         kiriSite sites[ROWS * ROWS];
         Scene_Init(&scene, 1.0, 1.0, 5, 5, 5 * ROWS);
         Scene_BuildGrid(&scene);
         int32_t count = PlaceNet(&scene, net, ROWS, &seed, sites);
         CheckContinuous(&scene, sites, count, 5, 4.0);
         CheckContinuous(&scene, sites, count, 1, 4.0);
-        Scene_Release(&scene);
     }
 }
 
@@ -377,7 +373,7 @@ TEST(LinksAreContinuousBesideSlits)
     enum { ROWS = 4 };
     const int32_t moved[] = { 5, 6, 9, 13 };
     uint32_t seed = 5;
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Release);
     kiriSite sites[ROWS * ROWS];
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 6 * ROWS);
     Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.65);
@@ -389,7 +385,6 @@ TEST(LinksAreContinuousBesideSlits)
         CheckContinuous(&scene, sites, count, moved[k], 4.0);
         sites[moved[k]] = was;
     }
-    Scene_Release(&scene);
 }
 
 /* ---- Sight, and ways around slits ---- */

@@ -455,8 +455,7 @@ static kiriFrameState FrameStateOf(const Beam* beam, int32_t frame)
     kiriFrame frames[MOST_ALONG];
     int32_t count;
     OK(kiriSheet_GetFrames(beam->host.world, beam->sheet, frames, MOST_ALONG, &count));
-    kiriFrameState state = World_FrameState(beam->host.world, frames[frame]);
-    return state;
+    return World_FrameState(beam->host.world, frames[frame]);
 }
 
 /* A strip between two supports under pressure sinks in its middle by 5/384 p L^4 / D between hinges, and by a fifth of
@@ -730,7 +729,7 @@ static void CheckDetached(Host hosts[2], const kiriSheet sheets[2], kiriSheet de
 TEST(Detach)
 {
     static const float across[4] = { 0.0f, 0.7f, 1.0f, 0.74f };
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriPin clamps[2], lower, own[2], rest[2];
     kiriSheet sheets[2], detached;
     kiriFrame frames[64];
@@ -761,8 +760,6 @@ TEST(Detach)
     OK(kiriDestroySheet(hosts[1].world, detached));
     assert_int_equal(kiriDestroyPin(hosts[1].world, own[0]), KIRI_ERROR_ID);
     OK(kiriDestroyPin(hosts[1].world, rest[0]));
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 /* A clamp outlives a piece that it held, and goes with the last one. */

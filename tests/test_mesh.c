@@ -18,8 +18,7 @@ static kiriResult Try(const float* points, int32_t vertexCount, const int32_t* i
     kiriSheetDef def = DefOf(points, vertexCount, indices, triangleCount);
     kiriSheet sheet;
     START_HOST(host);
-    kiriResult result = kiriCreateSheet(host.world, &def, &sheet);
-    return result;
+    return kiriCreateSheet(host.world, &def, &sheet);
 }
 
 static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* indices, int32_t triangleCount,

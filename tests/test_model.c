@@ -35,8 +35,7 @@ static kiriFrameState StateOf(const Host* host, kiriSheet sheet, int index)
     int32_t count;
     OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));
     assert_true(index < count);
-    kiriFrameState state = World_FrameState(host->world, frames[index]);
-    return state;
+    return World_FrameState(host->world, frames[index]);
 }
 
 static kiriFrame FrameOf(const Host* host, kiriSheet sheet, int index)

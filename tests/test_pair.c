@@ -374,19 +374,6 @@ TEST(FoldsStayApart)
     assert_true(hashes[0] == hashes[1]);
 }
 
-TEST(SameCallsSameBits)
-{
-    uint64_t hashes[2];
-    for (int run = 0; run < 2; ++run) {
-        HOST(host);
-        kiriSheet sheets[PILE];
-        StartPile(&host, sheets);
-        Host_Ticks(&host, 40, dt, 2);
-        hashes[run] = Host_Hash(&host);
-    }
-    assert_true(hashes[0] == hashes[1]);
-}
-
 TEST(PlainTicksAllocateNothing)
 {
     HOST(host);

@@ -300,7 +300,7 @@ TEST(OthersAreCut)
 TEST(Disturbed)
 {
     for (int disturbance = 0; disturbance < DISTURBANCES; ++disturbance) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         StartDisturbed(&hosts[0], disturbance, true);
         if (disturbance == SHEET_GOES) {
             OK(kiriDestroySheet(hosts[0].world, Host_SheetAt(&hosts[0], 0)));
@@ -325,8 +325,6 @@ TEST(Disturbed)
             assert_int_equal(settings[0].skinning, settings[1].skinning);
             assert_int_equal(settings[0].maxFrames, settings[1].maxFrames);
         }
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 
@@ -336,7 +334,7 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     static Gallery galleries[2];
-    Host hosts[2];
+    HOST_PAIR(hosts);
     double gone[2] = { 0.0, 0.0 };
     uint32_t seeds[2] = { 1201u * run, 1201u * run };
     int32_t samples[2] = { budget->samples, 0 }, unlimited = 0;
@@ -359,8 +357,6 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
         assert_true(Layout_HashAll(hosts[0].world) == Layout_HashAll(hosts[1].world));
     }
     assert_int_equal(unlimited, 0);
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 TEST(SmallSheets)

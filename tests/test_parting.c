@@ -89,7 +89,7 @@ TEST(ManyAreAsOneByOne)
     static kiriFrame frames[MOST_PIECES];
     static kiriSheet sheets[2][MOST_PIECES];
     for (int detach = 0; detach < 2; ++detach) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         int32_t count = 0;
         for (int k = 0; k < 2; ++k) {
             Host_Start(&hosts[k]);
@@ -110,8 +110,6 @@ TEST(ManyAreAsOneByOne)
             assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0 && Host_Tick(&hosts[k], 1.0f / 60.0f, 2) >= 0);
         }
         CompareSheets(hosts);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 
@@ -171,7 +169,7 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
    too. */
 TEST(PartsCountOtherMassesExactly)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(24);
         kiriSheet part;
@@ -189,8 +187,6 @@ TEST(PartsCountOtherMassesExactly)
         }
     }
     assert_true(Host_Hash(&hosts[0]) == Host_Hash(&hosts[1]));
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 /* ---- At random ---- */
@@ -228,7 +224,7 @@ TEST(LeftIsAsFromScratch)
 {
     int32_t parted = 0;
     for (uint32_t run = 1; run <= 3; ++run) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         kiriSheet sheets[2];
         uint32_t seeds[2] = { 677u * run, 677u * run };
         for (int k = 0; k < 2; ++k) {
@@ -252,8 +248,6 @@ TEST(LeftIsAsFromScratch)
                 assert_int_equal(LayoutAt(&hosts[0], s), LayoutAt(&hosts[1], s));
             }
         }
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
     assert_true(parted > 30);
 }
@@ -524,7 +518,7 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
 TEST(WaitingChangesNothing)
 {
     static const kiriBudget budgets[2] = { { 0, 50, 20, 0 }, { 0, 0, 0, 0 } };
-    Host hosts[2];
+    HOST_PAIR(hosts);
     for (int k = 0; k < 2; ++k) {
         Wait wait = StartWait(&hosts[k], &budgets[k]);
         kiriResult expected = k == 0 ? KIRI_PENDING : KIRI_OK, result;
@@ -549,8 +543,6 @@ TEST(WaitingChangesNothing)
     for (int32_t s = 0; s < 2; ++s) {
         assert_int_equal(LayoutAt(&hosts[0], s), LayoutAt(&hosts[1], s));
     }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 /* A piece that waits to go is not seen, not hit and not found, and nothing touches it. */
@@ -672,7 +664,7 @@ TEST(CrumbsWhileTheLargestLeaves)
 TEST(TouchesGoOn)
 {
     for (int detach = 0; detach < 2; ++detach) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         kiriSheet sheets[2], made = 0;
         for (int k = 0; k < 2; ++k) {
             Host_Start(&hosts[k]);
@@ -702,8 +694,6 @@ TEST(TouchesGoOn)
                 assert_float_equal(states[0].velocity[d], states[1].velocity[d], 5e-3);
             }
         }
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 

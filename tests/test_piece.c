@@ -40,14 +40,12 @@ static void Tick(Host* host, int32_t count)
 
 static kiriPieceState StateOf(Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceState state = World_PieceState(host->world, sheet, piece);
-    return state;
+    return World_PieceState(host->world, sheet, piece);
 }
 
 static kiriPieceMesh MeshOf(Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceMesh mesh = World_PieceMesh(host->world, sheet, piece);
-    return mesh;
+    return World_PieceMesh(host->world, sheet, piece);
 }
 
 /* ---- Lists, against parts that hang together by vertices ---- */
@@ -475,7 +473,7 @@ static double RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach)
 {
     static const float gentle[3] = { 0.2f, 0.0f, -1.0f }; /* in 16 iterations each step converges */
     static Part taken[8], rest;
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriSheet sheets[2], parts[8];
     for (int h = 0; h < 2; ++h) {
         uint32_t own = seed;
@@ -504,8 +502,6 @@ static double RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach)
         gap = fmax(gap, Gap(hosts, sheets[0], parts[k], &taken[k]));
     }
     gap = detach == 1 ? fmax(gap, Gap(hosts, sheets[0], sheets[1], &rest)) : gap;
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
     return gap;
 }
 

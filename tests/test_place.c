@@ -44,7 +44,7 @@ static void AssertSite(const kiriSites* sites, int32_t index, double u, double v
 /* A slit from the outline has one end, one inside the sheet two; their sites mirror each other. */
 TEST(BothSidesOfEachEnd)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Release);
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
     Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
@@ -60,13 +60,12 @@ TEST(BothSidesOfEachEnd)
     for (int32_t i = 0; i < sites.count; ++i) {
         assert_int_equal(sites.data[i].cell, Scene_Cell(&scene, sites.data[i].at.x, sites.data[i].at.y));
     }
-    Scene_Release(&scene);
 }
 
 /* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
 TEST(AsCloseAsThereIsRoom)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Release);
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
     Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
@@ -83,13 +82,12 @@ TEST(AsCloseAsThereIsRoom)
     Scene_Slit(&scene, 0.4, 0.0, 0.4, 1.0);
     AddPairs(&scene, &sites, 0.3, 100);
     assert_int_equal(sites.count, 0);
-    Scene_Release(&scene);
 }
 
 /* Corners of cuts, crossings, ends on the outline and on another cut are no slit ends. */
 TEST(OnlyEnds)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Release);
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
     Scene_Slit(&scene, 0.3, 0.0, 0.3, 1.0);
@@ -100,7 +98,6 @@ TEST(OnlyEnds)
     Scene_Slit(&scene, 0.1, 0.8, 0.1, 0.6);
     AddPairs(&scene, &sites, 0.1, 100);
     assert_int_equal(sites.count, 0);
-    Scene_Release(&scene);
 }
 
 /* The border between a pair goes from the slit's end to the outline, wherever in their squares slit and end lie: on a
@@ -167,7 +164,7 @@ TEST(PairsTwoSquaresApart)
 {
     for (int32_t resolution = 20; resolution < 60; ++resolution) {
         for (int k = 1; k <= 2; ++k) {
-            Scene scene;
+            SCOPED(Scene, scene, Scene_Release);
             kiriSites sites = { 0 };
             Scene_Init(&scene, 1.0, 1.0, 20, 20, resolution);
             Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
@@ -177,7 +174,6 @@ TEST(PairsTwoSquaresApart)
             assert_int_equal(sites.count, 2);
             AssertSite(&sites, 0, 0.3 - side, 0.4);
             AssertSite(&sites, 1, 0.3 + side, 0.4);
-            Scene_Release(&scene);
         }
     }
 }

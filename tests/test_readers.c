@@ -209,20 +209,19 @@ static void CheckReader(Scene* scene, const Reader* reader, bool isWaiting)
 TEST(NothingChanges)
 {
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         Scene_Start(&scene, isWaiting != 0);
         assert_int_equal(strncmp(kiriWorld_GetLastError(WorldOf(&scene)), "kiriWorld_Tick:", 15), 0);
         for (int i = 0; i < READERS; ++i) {
             CheckReader(&scene, &readers[i], isWaiting != 0);
         }
-        Scene_Stop(&scene);
     }
 }
 
 /* Weights take memory; refused, they say so, and nothing is left behind. */
 TEST(WeightsWithoutMemory)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     Bytes before, after;
     Scene_Start(&scene, false);
     Host* host = &scene.hall.host;
@@ -240,7 +239,6 @@ TEST(WeightsWithoutMemory)
     } while (result == KIRI_ERROR_MEMORY);
     assert_int_equal(result, KIRI_OK);
     assert_true(refused > 0);
-    Scene_Stop(&scene);
 }
 
 enum { ROUNDS = 60 };
@@ -270,7 +268,7 @@ static void* ReadAll(void* argument)
 TEST(TwoThreads)
 {
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         Bytes before, after;
         pthread_t ids[2];
         Scene_Start(&scene, isWaiting != 0);
@@ -286,6 +284,5 @@ TEST(TwoThreads)
         }
         TakeBytes(&scene, &after);
         assert_true(memcmp(&before, &after, sizeof(before)) == 0);
-        Scene_Stop(&scene);
     }
 }

@@ -369,14 +369,13 @@ static void WriteAndCount(void* user, const void* bytes, int32_t count)
 
 TEST(AllCallsAreRecorded)
 {
-    Tape tape;
+    SCOPED(Tape, tape, Tape_Free);
     RecordAll(&tape, WriteAndCount);
     for (int32_t number = KIRI_CALL_DestroyWorld; number < KIRI_CALL_COUNT; number++) {
         if (counts[number] == 0) {
             fail_msg("%s is not in the recording of all calls", kiriCallRows[number].name);
         }
     }
-    Tape_Free(&tape);
 }
 
 static bool IsInTable(const char* name)
@@ -487,7 +486,7 @@ TEST(ReadOnlyArguments)
     kiriObstacleDef obstacleDef;
     kiriObstacle obstacle;
     kiriSheet sheet;
-    Tape tape;
+    SCOPED(Tape, tape, Tape_Free);
     Tape_Start(&tape);
     kiriWorld* world = tape.host.world;
     kiriSheetDef def = Host_SmallDef();
@@ -502,16 +501,14 @@ TEST(ReadOnlyArguments)
     kiriFrame frame = FrameAt(&tape, sheet, 0.5f, 0.5f);
     assert_int_equal(kiriWorld_DestroyPieces(world, Freeze(&frame, sizeof frame), 1), KIRI_ERROR_STATE);
     OK(kiriWorld_Note(world, Freeze("hello", 5), 5));
-    Tape_Stop(&tape);
     Rectangle_Free(&mesh);
-    Tape_Free(&tape);
 }
 
 /* ---- What it costs ----------------------------------------------------------------------------------------------- */
 
 TEST(Size)
 {
-    Tape tape;
+    SCOPED(Tape, tape, Tape_Free);
     float stroke[200];
     for (int i = 0; i < 200; i++) {
         stroke[i] = 0.005f * (float)i;
@@ -525,8 +522,6 @@ TEST(Size)
     before = tape.size;
     Tape_Tick(&tape);
     assert_in_range(tape.size - before, 7, 16);
-    Tape_Stop(&tape);
-    Tape_Free(&tape);
 }
 
 /* A world that records allocates as one that does not. */
@@ -534,7 +529,7 @@ TEST(NoMemory)
 {
     int64_t calls[2];
     for (int records = 0; records < 2; records++) {
-        Tape tape;
+        SCOPED(Tape, tape, Tape_Free);
         kiriWorldDef def = Tape_Def(&tape);
         def.record = records ? Tape_Write : NULL;
         OK(kiriCreateWorld(&def, &tape.host.world));
@@ -542,8 +537,6 @@ TEST(NoMemory)
         Part(&tape, sheet, 0.5f);
         OK(kiriWorld_Note(tape.host.world, "hello", 5));
         calls[records] = tape.host.calls;
-        Tape_Stop(&tape);
-        Tape_Free(&tape);
     }
     assert_int_equal(calls[0], calls[1]);
 }

@@ -100,34 +100,36 @@ static void Stand_Stop(Stand* s)
 
 /* ---- The calls ---- */
 
-/* A call of one line. */
-#define CALL(name, call)                                                                                               \
-    static kiriResult name(Stand* s)                                                                                   \
+/* Calls of one line, and whether they allocate. */
+#define SHORT_CALLS(X)                                                                                                 \
+    X(kiriWorld_Tick, (world, 0.01f, 2), true)                                                                         \
+    X(kiriWorld_SetGravity, (world, eye), false)                                                                       \
+    X(kiriWorld_ShiftOrigin, (world, eye), true)                                                                       \
+    X(kiriCreateSheet, (world, &s->def, &s->made), true)                                                               \
+    X(kiriCreateRectangle, (world, 1.0f, 1.0f, 4, 4, &s->def, &s->made), true)                                         \
+    X(kiriDestroySheet, (world, s->sheet), false)                                                                      \
+    X(kiriSheet_Wake, (world, s->sheet), false)                                                                        \
+    X(kiriFrame_DetachPiece, (world, s->frame, &s->made), true)                                                        \
+    X(kiriFrame_DestroyPiece, (world, s->frame), true)                                                                 \
+    X(kiriWorld_DetachPieces, (world, &s->frame, 1, &s->made), true)                                                   \
+    X(kiriWorld_DestroyPieces, (world, &s->frame, 1), true)                                                            \
+    X(kiriBeginCut, (world, s->sheet, eye, &s->madeCut), true)                                                         \
+    X(kiriCut_End, (world, s->cut), false)                                                                             \
+    X(kiriFrame_Hold, (world, s->frame, eye + 1, eye), false)                                                          \
+    X(kiriFrame_ApplyForce, (world, s->frame, eye, eye), false)                                                        \
+    X(kiriPin_SetPose, (world, s->clamp, eye, eye), false)                                                             \
+    X(kiriSheet_ApplyForce, (world, s->sheet, eye, eye, eye), false)                                                   \
+    X(kiriSheet_ApplyPressure, (world, s->sheet, 2.0f), false)                                                         \
+    X(kiriPin_SetTarget, (world, s->pin, eye), false)                                                                  \
+    X(kiriDestroyPin, (world, s->pin), false)
+
+#define MAKE(name, arguments, allocates)                                                                               \
+    static kiriResult Call_##name(Stand* s)                                                                            \
     {                                                                                                                  \
         kiriWorld* world = s->host.world;                                                                              \
-        return call;                                                                                                   \
+        return name arguments;                                                                                         \
     }
-
-CALL(CallTick, kiriWorld_Tick(world, 0.01f, 2))
-CALL(CallSetGravity, kiriWorld_SetGravity(world, eye))
-CALL(CallShiftOrigin, kiriWorld_ShiftOrigin(world, eye))
-CALL(CallCreateSheet, kiriCreateSheet(world, &s->def, &s->made))
-CALL(CallCreateRectangle, kiriCreateRectangle(world, 1.0f, 1.0f, 4, 4, &s->def, &s->made))
-CALL(CallDestroySheet, kiriDestroySheet(world, s->sheet))
-CALL(CallWake, kiriSheet_Wake(world, s->sheet))
-CALL(CallDetachPiece, kiriFrame_DetachPiece(world, s->frame, &s->made))
-CALL(CallDestroyPiece, kiriFrame_DestroyPiece(world, s->frame))
-CALL(CallDetachPieces, kiriWorld_DetachPieces(world, &s->frame, 1, &s->made))
-CALL(CallDestroyPieces, kiriWorld_DestroyPieces(world, &s->frame, 1))
-CALL(CallBeginCut, kiriBeginCut(world, s->sheet, eye, &s->madeCut))
-CALL(CallEnd, kiriCut_End(world, s->cut))
-CALL(CallHold, kiriFrame_Hold(world, s->frame, eye + 1, eye))
-CALL(CallApplyForce, kiriFrame_ApplyForce(world, s->frame, eye, eye))
-CALL(CallSetPose, kiriPin_SetPose(world, s->clamp, eye, eye))
-CALL(CallApplyForceAt, kiriSheet_ApplyForce(world, s->sheet, eye, eye, eye))
-CALL(CallApplyPressure, kiriSheet_ApplyPressure(world, s->sheet, 2.0f))
-CALL(CallSetTarget, kiriPin_SetTarget(world, s->pin, eye))
-CALL(CallDestroyPin, kiriDestroyPin(world, s->pin))
+SHORT_CALLS(MAKE)
 
 static kiriResult CallSetBudget(Stand* s)
 {
@@ -216,38 +218,20 @@ typedef struct Call {
     bool allocates; /* where it does its work */
 } Call;
 
+#define ROW(name, arguments, allocates) { #name, Call_##name, allocates },
 static const Call calls[] = {
-    { "kiriWorld_Tick", CallTick, true },
-    { "kiriWorld_SetGravity", CallSetGravity, false },
-    { "kiriWorld_ShiftOrigin", CallShiftOrigin, true },
+    SHORT_CALLS(ROW)
     { "kiriWorld_SetBudget", CallSetBudget, false },
-    { "kiriCreateSheet", CallCreateSheet, true },
-    { "kiriCreateRectangle", CallCreateRectangle, true },
-    { "kiriDestroySheet", CallDestroySheet, false },
-    { "kiriSheet_Wake", CallWake, false },
     { "kiriSheet_GetPiece", CallGetPiece, true },
     { "kiriSheet_GetPieceMesh", CallGetPieceMesh, true },
     { "kiriSheet_GetPieceFrames", CallGetPieceFrames, true },
-    { "kiriFrame_DetachPiece", CallDetachPiece, true },
-    { "kiriFrame_DestroyPiece", CallDestroyPiece, true },
-    { "kiriWorld_DetachPieces", CallDetachPieces, true },
-    { "kiriWorld_DestroyPieces", CallDestroyPieces, true },
     { "kiriSheet_DropCrumbs", CallDropCrumbs, true },
-    { "kiriBeginCut", CallBeginCut, true },
     { "kiriCut_Extend", CallExtend, true },
-    { "kiriCut_End", CallEnd, false },
     { "kiriSheet_Slice", CallSlice, true },
-    { "kiriFrame_Hold", CallHold, false },
-    { "kiriFrame_ApplyForce", CallApplyForce, false },
-    { "kiriSheet_ApplyForce", CallApplyForceAt, false },
     { "kiriSheet_ApplyLineLoad", CallApplyLineLoad, true },
-    { "kiriSheet_ApplyPressure", CallApplyPressure, false },
     { "kiriCreatePin", CallCreatePin, true },
     { "kiriSheet_ClampLine", CallClampLine, true },
     { "kiriSheet_HingeLine", CallHingeLine, true },
-    { "kiriPin_SetPose", CallSetPose, false },
-    { "kiriPin_SetTarget", CallSetTarget, false },
-    { "kiriDestroyPin", CallDestroyPin, false },
     { "kiriSheet_SetContacts", CallSetContacts, true },
 };
 
@@ -321,14 +305,13 @@ static uint64_t LookWithProfile(const Stand* s)
 
 static Outcome OutcomeOf(const Call* call, int32_t work)
 {
-    Stand s;
+    SCOPED(Stand, s, Stand_Stop);
     Outcome outcome;
     Stand_Start(&s, work);
     LookWithProfile(&s); /* who holds the indices gets others */
     outcome.result = CallPoorly(&s, call, INT32_MAX, true);
     assert_true(outcome.result != KIRI_ERROR_MEMORY);
     After(&s, &outcome);
-    Stand_Stop(&s);
     return outcome;
 }
 
@@ -337,7 +320,7 @@ static Outcome OutcomeOf(const Call* call, int32_t work)
 static int32_t CheckCall(const Call* call, int32_t work, bool once)
 {
     Outcome rich = OutcomeOf(call, work), poor;
-    Stand s;
+    SCOPED(Stand, s, Stand_Stop);
     int32_t refused = 0;
     Stand_Start(&s, work);
     uint64_t hash = Host_Hash(&s.host), look = LookWithProfile(&s);
@@ -357,7 +340,6 @@ static int32_t CheckCall(const Call* call, int32_t work, bool once)
     }
     assert_int_equal(poor.live, rich.live);
     assert_int_equal(poor.liveAtEnd, rich.liveAtEnd);
-    Stand_Stop(&s);
     return refused;
 }
 
@@ -427,7 +409,7 @@ TEST(RefusedAtRandom)
     int32_t refused[KIRI_STAGE_COUNT + 1] = { 0 };
     for (uint32_t run = 1; run <= 60; ++run) {
         uint32_t seed = 7919u * run;
-        Stand s;
+        SCOPED(Stand, s, Stand_Stop);
         Stand_Start(&s, NO_WORK);
         kiriResult result = KIRI_PENDING;
         for (int tick = 0; result != KIRI_OK; ++tick) {
@@ -443,7 +425,6 @@ TEST(RefusedAtRandom)
             }
         }
         assert_true(LayoutOf(&s) == layout);
-        Stand_Stop(&s);
     }
     for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
         print_message("%d ticks refused at stage %s\n", refused[stage], kiriGetStageName(stage));
@@ -467,7 +448,7 @@ static void RestoreIn(Host* host, const kiriWorld* world)
 /* Restores what a snapshot has then, and goes on with both worlds. False where nothing was refused. */
 static bool GoOnFromSnapshot(int32_t work, int64_t n)
 {
-    Stand s;
+    SCOPED(Stand, s, Stand_Stop);
     Host other;
     Stand_Start(&s, work);
     LiftLimits(&s);
@@ -477,12 +458,11 @@ static bool GoOnFromSnapshot(int32_t work, int64_t n)
         RestoreIn(&other, s.host.world);
         for (int tick = 0; tick < 3; ++tick) {
             assert_true(Host_Hash(&other) == Host_Hash(&s.host));
-            OK(CallTick(&s));
+            OK(Call_kiriWorld_Tick(&s));
             OK(kiriWorld_Tick(other.world, 0.01f, 2));
         }
         Host_Stop(&other);
     }
-    Stand_Stop(&s);
     return isRefused;
 }
 
@@ -503,16 +483,15 @@ TEST(DetachAfterRefusal)
     kiriResult result = KIRI_ERROR_MEMORY;
     int32_t refused = 0;
     for (; result == KIRI_ERROR_MEMORY; ++refused) {
-        Stand s;
+        SCOPED(Stand, s, Stand_Stop);
         Stand_Start(&s, NO_WORK);
         result = CallPoorly(&s, &calls[0], refused, true);
         if (result == KIRI_ERROR_MEMORY) {
-            kiriResult detached = CallDetachPiece(&s);
+            kiriResult detached = Call_kiriFrame_DetachPiece(&s);
             assert_true(detached >= 0);
-            assert_int_equal(CallTick(&s), detached); /* the work is done, and the piece goes with the next tick */
-            OK(CallTick(&s));
+            assert_int_equal(Call_kiriWorld_Tick(&s), detached); /* the work is done, the piece goes */
+            OK(Call_kiriWorld_Tick(&s));
         }
-        Stand_Stop(&s);
     }
     assert_true(refused > 4);
 }

@@ -87,8 +87,7 @@ static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tap
 {
     Tape_Start(again);
     tape->bytes[byte] ^= flips;
-    kiriResult result = Tape_Play(again, tape);
-    return result;
+    return Tape_Play(again, tape);
 }
 
 TEST(AnotherGravity)
@@ -145,23 +144,20 @@ TEST(AnotherResult)
 /* The end of one call is a good end; within a call it is none. */
 TEST(CutShort)
 {
-    Tape tape;
+    SCOPED(Tape, tape, Tape_Free);
     int32_t whole = 0, within = 0;
     RecordSmall(&tape);
     int64_t size = tape.size;
     for (tape.size = 1; tape.size < size; tape.size += tape.size < size - 150 ? 7 : 1) {
-        Tape again;
+        SCOPED(Tape, again, Tape_Free);
         Tape_Start(&again);
         kiriResult result = Tape_Play(&again, &tape);
         whole += result == KIRI_OK;
         within += strstr(again.host.line, "is the last one: the recording ends within it") != NULL;
         assert_true(result == KIRI_OK || result == KIRI_ERROR_DATA);
-        Tape_Stop(&again);
-        Tape_Free(&again);
     }
     assert_in_range(whole, 5, 20);
     assert_in_range(within, 5, 20);
-    Tape_Free(&tape);
 }
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
@@ -169,11 +165,11 @@ TEST(CutShort)
 /* Each allocation of a replay is refused once. Then it says so; another world plays it to the end. */
 TEST(RefusedReplay)
 {
-    Tape tape;
+    SCOPED(Tape, tape, Tape_Free);
     bool isDone = false;
     RecordSmall(&tape);
     for (int64_t failAt = 1; !isDone; failAt += failAt < 100 ? 1 : 13) {
-        Tape again;
+        SCOPED(Tape, again, Tape_Free);
         Tape_Start(&again);
         again.host.failAt = failAt;
         again.host.failOnce = true;
@@ -186,10 +182,7 @@ TEST(RefusedReplay)
             Tape_Start(&again);
             OK(Tape_Play(&again, &tape));
         }
-        Tape_Stop(&again);
-        Tape_Free(&again);
     }
-    Tape_Free(&tape);
 }
 
 /* What was refused memory when it was recorded is left out. */

@@ -64,7 +64,7 @@ static void Start(Scene* scene, const char* name)
 TEST(Table)
 {
     for (int i = 0; i < ROWS; i++) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         kiriCounts counts;
         StartAsPaper(&scene, table[i].name);
         kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
@@ -73,7 +73,6 @@ TEST(Table)
         assert_int_equal(counts.frames, table[i].firstFrames);
         assert_int_equal(counts.pieces, 1);
         assert_int_equal(scene.strokeCount, table[i].strokes);
-        Scene_Stop(&scene);
     }
 }
 
@@ -83,7 +82,7 @@ TEST(OwnFrames)
     static const int rows[] = { SPIRAL, KIRIGAMI, VORTEX, FALLING_GUY };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const Row* row = &table[rows[i]];
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         kiriCounts counts;
         Start(&scene, row->name);
         while (scene.tick < scene.type->lastCut + 30) {
@@ -92,7 +91,6 @@ TEST(OwnFrames)
         kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
         assert_in_range(counts.frames, 3 * row->lastFrames, 200);
         assert_int_equal(counts.pieces, row->pieces);
-        Scene_Stop(&scene);
     }
 }
 
@@ -118,7 +116,7 @@ TEST(Times)
     for (int i = 0; Scene_GetType(i) != NULL; i++) {
         const SceneType* type = Scene_GetType(i);
         for (int k = 0; k < 3; k++) {
-            Scene scene;
+            SCOPED(Scene, scene, Scene_Stop);
             StartAt(&scene, type->name, paces[k]);
             CheckTimes(&scene);
             assert_int_equal(scene.type->firstCut, type->firstCut);
@@ -126,21 +124,19 @@ TEST(Times)
                               (float)(type->lastCut - type->firstCut)) <= 1.0f);
             assert_true(fabsf(paces[k] * (float)(scene.type->ticks - type->firstCut) -
                               (float)(type->ticks - type->firstCut)) <= 1.0f);
-            Scene_Stop(&scene);
         }
     }
 }
 
 static uint64_t HashAt(float pace)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     uint64_t hash;
     StartAt(&scene, "bunny", pace);
     for (int32_t i = 0; i < 60; i++) {
         assert_true(TickScene(&scene) >= 0);
     }
     assert_int_equal(kiriWorld_GetStateHash(scene.world, &hash), KIRI_OK);
-    Scene_Stop(&scene);
     return hash;
 }
 
@@ -187,7 +183,7 @@ static float LongestSide(const Outline* way)
 /* At a slow pace the blade goes on a little in every tick, on its way, and all points of the way are cut. */
 TEST(SlowBlade)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     StartAt(&scene, "bunny", 0.2f);
     const Stroke* stroke = &scene.strokes[0];
     const Outline* way = &stroke->way;
@@ -210,7 +206,6 @@ TEST(SlowBlade)
     for (int32_t i = 0; i < way->count; i++) {
         assert_true(HasVertex(&mesh, way->points + 2 * i, 1.1e-4f)); /* what a blade may snap by */
     }
-    Scene_Stop(&scene);
 }
 
 /* What is seen of a scene in the course of its ticks. */
@@ -278,9 +273,8 @@ static void RunWhole(const Row* row, Scene* scene, Watch* watch)
 
 TEST(SpiralScene)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     RunWhole(&table[SPIRAL], &scene, NULL);
-    Scene_Stop(&scene);
 }
 
 /* The height of the highest frame whose rest point a stroke encloses. */
@@ -304,12 +298,11 @@ static float HeightOf(const Scene* scene, const Stroke* stroke)
 
 TEST(PatchworkScene)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     RunWhole(&table[PATCHWORK], &scene, NULL);
     for (int32_t i = 0; i < scene.strokeCount; i++) {
         assert_true(HeightOf(&scene, &scene.strokes[i]) < 0.06f); /* each lies on the floor, at most folded */
     }
-    Scene_Stop(&scene);
 }
 
 /* The mean stretch along u of frames, in themselves. */
@@ -351,7 +344,7 @@ static double HeightOfMiddle(const Scene* scene)
 TEST(RubberStretches)
 {
     for (int plain = 0; plain < 2; plain++) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         kiriWorldDef def;
         kiriDefaultWorldDef(&def);
         assert_true(Scene_Start(&scene, Scene_FindType("rubber"), &def, &(SceneOptions){ .plain = plain != 0 }));
@@ -361,7 +354,6 @@ TEST(RubberStretches)
         double stretch = StretchOfFrames(&scene), height = HeightOfMiddle(&scene);
         assert_true(plain ? fabs(stretch - 1.0) < 1e-6 : stretch > 1.3);
         assert_true(height < (plain ? 0.85 : 0.8));
-        Scene_Stop(&scene);
     }
 }
 
@@ -369,7 +361,7 @@ TEST(RubberStretches)
    no offsets of strains: 5e-5 of all. */
 TEST(RubberScene)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     double elastic;
     Watch watch = { .still = Scene_FindType("rubber")->firstCut };
     RunWhole(&table[RUBBER], &scene, &watch);
@@ -377,13 +369,12 @@ TEST(RubberScene)
     assert_true(watch.most <= (1.0 + 1e-4) * watch.energy);
     assert_true(watch.elastic > 1.0 && elastic < 1e-3 * watch.elastic);
     assert_true(fabs(StretchOfFrames(&scene) - 1.0) < 0.01);
-    Scene_Stop(&scene);
 }
 
 /* Nothing leaves the plane or brings energy; in the end the halves of the disc lie on the floor, apart. */
 TEST(FlatScene)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     Watch watch = { .still = 1 };
     RunWhole(&table[FLAT], &scene, &watch);
     assert_true(watch.offPlane == 0.0 && watch.most <= (1.0 + 1e-6) * watch.energy);
@@ -398,7 +389,6 @@ TEST(FlatScene)
     }
     assert_int_equal(found, 2);
     assert_true(halves[0].upper[0] < halves[1].lower[0] || halves[1].upper[0] < halves[0].lower[0]);
-    Scene_Stop(&scene);
 }
 
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
@@ -409,7 +399,7 @@ TEST(FoldScenes)
     static const char* const names[] = { "miura", "card" };
     static const float angles[2][3] = { { -0.3f, 0.3f, -0.3f }, { 1.57f, 1.57f, -1.57f } }; /* rad */
     for (int i = 0; i < 2; i++) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         kiriCounts counts;
         Start(&scene, names[i]);
         for (int32_t tick = 0; tick < scene.type->ticks; tick++) {
@@ -424,13 +414,12 @@ TEST(FoldScenes)
             print_message("%s, fold %d: %.3f rad\n", names[i], (int)index, fold.angle);
             assert_true(fabs(fold.angle - (double)angles[i][k]) < 0.1);
         }
-        Scene_Stop(&scene);
     }
 }
 
 TEST(SpiralIsNotThrown)
 {
-    Scene scene;
+    SCOPED(Scene, scene, Scene_Stop);
     Start(&scene, "spiral");
     double most = 0.0, fall = 0.0;
     for (int32_t tick = 0; tick < scene.type->ticks; ++tick) {
@@ -441,7 +430,6 @@ TEST(SpiralIsNotThrown)
         fall = 9.81 * totals.mass * (double)scene.type->size;
     }
     assert_true(most > 0.0 && most < fall);
-    Scene_Stop(&scene);
 }
 
 /* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */

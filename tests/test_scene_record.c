@@ -100,7 +100,7 @@ TEST(WorldsOfHosts)
     kiriDestroyWorld(world);
     assert_true(SceneRecord_Close(file, filePath));
     for (int32_t pass = 0; pass < 2; pass++) {
-        Scene scene;
+        SCOPED(Scene, scene, Scene_Stop);
         SceneReplay replay;
         if (pass == 1) {
             file = fopen(filePath, "wb");
@@ -114,7 +114,6 @@ TEST(WorldsOfHosts)
             assert_int_equal(SceneReplay_Tick(&replay, &scene), KIRI_PENDING);
         }
         CheckOpened(&replay, &scene, hashes[1]);
-        Scene_Stop(&scene);
         SceneReplay_Free(&replay);
     }
     remove(filePath);

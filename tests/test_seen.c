@@ -206,7 +206,7 @@ TEST(DetailOfCurtain)
 {
     enum { GATHER = 60, HANG = 600 };
     for (int32_t frames = 25; frames <= 100; frames += 75) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         kiriSheet sheet[2];
         kiriPin pins[2];
         kiriMesh mesh[2];
@@ -238,8 +238,6 @@ TEST(DetailOfCurtain)
         }
         assert_true(most < 1e-4f / 32.0f);
         free(before);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 
@@ -277,7 +275,7 @@ TEST(DetailIsHeld)
 /* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */
 TEST(DetailOnBall)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriSheet sheet[2];
     kiriMesh mesh[2];
     int32_t awake = 1;
@@ -314,6 +312,4 @@ TEST(DetailOnBall)
     uint64_t seen = Look_Sheet(0, hosts[1].world, sheet[1]);
     OK(Host_Tick(&hosts[1], dt, 4));
     assert_true(Look_Sheet(0, hosts[1].world, sheet[1]) == seen);
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }

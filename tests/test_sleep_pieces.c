@@ -11,8 +11,7 @@ static void Tick(Host* host)
 
 static kiriPieceState PieceOf(const Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceState state = World_PieceState(host->world, sheet, piece);
-    return state;
+    return World_PieceState(host->world, sheet, piece);
 }
 
 /* One bit for each piece that is awake. */
@@ -111,7 +110,7 @@ TEST(OneByOne)
 {
     static const float speeds[STRIPS] = { 0.0f, 1.0f, 0.01f, 0.1f };
     static const int order[STRIPS] = { 0, 2, 3, 1 };
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriSheet sheets[2];
     int asleepAt[STRIPS] = { 0 };
     for (int h = 0; h < 2; ++h) {
@@ -144,8 +143,6 @@ TEST(OneByOne)
     for (int i = 1; i < STRIPS; ++i) {
         assert_true(asleepAt[order[i]] > asleepAt[order[i - 1]] + 10);
     }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 /* What sleeps takes nothing from the budget. */

@@ -267,8 +267,7 @@ static kiriObstacle AddObstacle(Everything* all, int32_t type, float x, float y,
     def.type = type;
     def.radius = 0.2f;
     From(all, x, y, z, def.position);
-    kiriObstacle obstacle = World_AddObstacle(all->host.world, &def);
-    return obstacle;
+    return World_AddObstacle(all->host.world, &def);
 }
 
 /* Bits of `how`: settings of a sheet. */

@@ -170,8 +170,7 @@ static kiriObstacle AddFloor(Host* host)
     kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PLANE;
     def.position[2] = -0.05f;
-    kiriObstacle obstacle = World_AddObstacle(host->world, &def);
-    return obstacle;
+    return World_AddObstacle(host->world, &def);
 }
 
 /* What is seen is what is there, whoever waits: far away, with normals, with and without fades, with patches that bend,

@@ -110,7 +110,7 @@ static void HoldLines(Host* host, kiriSheet sheet)
 
 static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     kiriSheet sheets[2];
     Wanderer wanderers[3];
     memset(wanderers, 0, sizeof(wanderers));
@@ -134,8 +134,6 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
         }
         Compare(hosts, number, tick);
     }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 TEST(IncrementalEqualsFromScratch)
@@ -163,7 +161,7 @@ TEST(OutlineLeavesSquares)
         static const int32_t indices[3] = { 0, 1, 2 };
         const float rest[6] = { 0.0f, (float)(2 + 2 * (number % 3)) / 536870912.0f, 1.0f, 0.0f, 1.0f, 1.0f };
         uint32_t seed = 31u + number;
-        Host hosts[2];
+        HOST_PAIR(hosts);
         kiriSheet sheets[2];
         for (int k = 0; k < 2; ++k) {
             kiriSheetDef def = Host_SmallDef();
@@ -188,8 +186,6 @@ TEST(OutlineLeavesSquares)
             gone += cells > 0 ? cells : 0;
             Compare(hosts, (int32_t)number, tick);
         }
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
     assert_true(gone > 50);
 }
@@ -315,7 +311,7 @@ TEST(AnyBudgetEqualsNone)
         { GiveCircle, 50, 8, 8, 4, 6, 2, 50, 150 },
     };
     for (size_t r = 0; r < sizeof(rows) / sizeof(rows[0]); ++r) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         int32_t ticks[2];
         StartPair(hosts, &tight);
         hosts[1].every = rows[r].every;
@@ -338,8 +334,6 @@ TEST(AnyBudgetEqualsNone)
         assert_int_equal(ticks[0], 1);
         assert_true(ticks[1] > rows[r].leastTicks);
         CompareLayouts(hosts);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 
@@ -348,7 +342,7 @@ TEST(AnyBudgetEqualsNone)
 TEST(BladeFasterThanItsBudget)
 {
     for (uint32_t number = 0; number < 12; ++number) {
-        Host hosts[2];
+        HOST_PAIR(hosts);
         kiriSheet sheets[2];
         Wanderer wanderers[2];
         uint32_t seed = 77u + number;
@@ -372,8 +366,6 @@ TEST(BladeFasterThanItsBudget)
         }
         assert_true(Settle(&hosts[1], &tight) > 10);
         CompareLayouts(hosts);
-        Host_Stop(&hosts[0]);
-        Host_Stop(&hosts[1]);
     }
 }
 

@@ -99,7 +99,7 @@ static void DropCaches(Host* host)
 /* One world goes on, the other one is loaded before each tick, or before some. */
 static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
 {
-    Host hosts[2];
+    HOST_PAIR(hosts);
     uint32_t seeds[2] = { 901u * run, 901u * run }, times = 31u * run;
     kiriResult results[2] = { KIRI_PENDING, KIRI_PENDING };
     Start(&hosts[0], run);
@@ -122,8 +122,6 @@ static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
                      (int)Host_SheetCount(&hosts[1]));
         }
     }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
 }
 
 TEST(LoadedTwins)

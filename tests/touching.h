@@ -4,6 +4,7 @@
 #define KIRI_TOUCHING_H
 
 #include "kiri/kiri.h"
+#include "scoped.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,6 +122,7 @@ static inline void Touching_Start(Touching* t, const TouchingDef* def, const dou
 static inline void Touching_Stop(Touching* t)
 {
     kiriDestroyWorld(t->world);
+    t->world = NULL;
 }
 
 /* A floor on which gravity is inclined by an angle towards x. */
