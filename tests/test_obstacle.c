@@ -619,6 +619,45 @@ TEST(HeavyBodiesRestOnCloth)
     }
 }
 
+/* A ball without friction gets no torque, and pushes the same with any spin. */
+TEST(SmoothBallsFeelNoTorque)
+{
+    double given[2] = { 0.0, 0.0 };
+    for (int k = 0; k < 2; ++k) {
+        START_HOST(host);
+        kiriSheetDef cloth = DefaultSheet();
+        cloth.frameCount = 16;
+        kiriSheet sheet = Host_AddRectangle(&host, &cloth, 1.0f, 1.0f, 32, 32);
+        for (int i = 0; i < 4; ++i) {
+            Host_Pin(&host, sheet, (float)(i % 2), (float)(i / 2), (float)(i % 2), (float)(i / 2), 0.0f);
+        }
+        kiriObstacleDef def = DefOf(KIRI_OBSTACLE_SPHERE);
+        def.radius = 0.1f;
+        def.friction = 0.0f;
+        def.mass = 1.0f;
+        def.angularVelocity[0] = k == 0 ? 0.0f : 50.0f;
+        def.position[0] = 0.513f;
+        def.position[1] = 0.507f;
+        def.position[2] = 0.103f;
+        kiriObstacle ball = Add(&host, &def);
+        for (int tick = 0; tick < 60; ++tick) {
+            def.velocity[2] -= 9.81f * dt;
+            OK(kiriObstacle_SetPose(host.world, ball, def.position, def.rotation));
+            OK(kiriObstacle_SetVelocity(host.world, ball, def.velocity, def.angularVelocity));
+            OK(kiriWorld_Tick(host.world, dt, 2));
+            kiriObstacleState now = StateOf(&host, ball);
+            for (int i = 0; i < 3; ++i) {
+                def.velocity[i] += (float)now.impulse[i];
+                def.position[i] += dt * def.velocity[i];
+                assert_true(fabs(now.angularImpulse[i]) <= 1e-7 * sqrt(now.impulse[0] * now.impulse[0] +
+                                                           now.impulse[1] * now.impulse[1] + now.impulse[2] * now.impulse[2]));
+            }
+            given[k] += now.impulse[2];
+        }
+    }
+    assert_true(given[0] > 1.0 && fabs(given[0] - given[1]) < 1e-3 * given[0]);
+}
+
 TEST(GroupsTellWhoTouches)
 {
     START_HOST(host);

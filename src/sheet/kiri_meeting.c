@@ -55,6 +55,7 @@ static bool MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, 
         touch->offset = (touch->offset - lean * height) / sqrt(along);
     }
     touch->normal = normal;
+    touch->on = at;
     touch->friction = meeting->friction;
     touch->pushSpeed = obstacle->pushSpeed;
     touch->yield = meeting->yield;
@@ -262,8 +263,12 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
     kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex), from = kiriObstacle_PointToLocal(obstacle, x);
-    kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, kiriProbe_Velocity(meeting->sheet, vertex)));
-    kiriNearest nearest;
+    kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, from, meeting->across);
+    /* A turn moves the surface along its normal only. */
+    kiriVec3 turning = kiriVec3_Sub(kiriObstacle_VelocityAt(obstacle, x), obstacle->velocity);
+    turning = kiriVec3_Across(turning, kiriObstacle_ToWorld(obstacle, nearest.normal));
+    kiriVec3 velocity = kiriVec3_Add(kiriProbe_Velocity(meeting->sheet, vertex), turning);
+    kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, velocity));
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
     if (share >= 1.0 && nearest.distance > meeting->near) {
         return false;

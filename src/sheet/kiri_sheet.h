@@ -294,6 +294,7 @@ typedef struct kiriTouch {
     int32_t vertex[3]; /* unused entries come last and are KIRI_NONE */
     double share[3];   /* sum 1 */
     kiriVec3 seen;     /* m: visible position of the point; kiriTouches_Add writes it */
+    kiriVec3 on;       /* m: place on the obstacle that it touches, at the start of the tick */
     kiriVec3 normal;   /* this and the fields below as in a contact row, but the plane is at the visible position */
     double offset;
     kiriVec3 velocity;

@@ -126,7 +126,7 @@ KIRI_TABLE(TouchTable, kiriTouch, {
     KIRI_REALS(normal, pushSpeed),
     KIRI_UNHASHED,
     KIRI_RUN(4, point, vertex),
-    KIRI_REALS(share, seen),
+    KIRI_REALS(share, on),
     KIRI_RUN(4, yield),
     KIRI_REALS(felt),
     KIRI_RUN(4, row),

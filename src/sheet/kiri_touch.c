@@ -379,6 +379,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = kiriTouch_Seen(sheet, touch);
+    found.on = kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) ? touch->on : found.seen;
     const kiriVec3 *n = &found.normal, *v = &found.velocity;
     double sum = found.share[0] + found.share[1] + found.share[2] + found.offset;
     sum += n->x + n->y + n->z + v->x + v->y + v->z;

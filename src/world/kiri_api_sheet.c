@@ -654,6 +654,7 @@ static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
 {
     KIRI_TIMES(i, count) {
         Shift(&touches[i].seen, origin);
+        Shift(&touches[i].on, origin);
         touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
     }
 }

@@ -469,7 +469,7 @@ static void AddToRests(const kiriWorld* world, kiriRestLoads* rests, const kiriT
     if (obstacle != NULL && kiriVec3_Dot(impulse, touch->normal) > 0.0) {
         kiriVec3 center = kiriObstacle_CenterOfMass(obstacle), back = kiriVec3_Scale(-1.0, impulse);
         kiriRestLoad* load = RestLoadOn(rests, kiriObstacle_SlotOfKey(touch->key), center);
-        kiriVec3 turn = kiriVec3_Cross(kiriVec3_Sub(touch->seen, center), back);
+        kiriVec3 turn = kiriVec3_Cross(kiriVec3_Sub(touch->on, center), back);
         load->impulse.force = kiriVec3_Add(load->impulse.force, back);
         load->impulse.moment = kiriVec3_Add(load->impulse.moment, turn);
         load->contacts += 1;
@@ -517,7 +517,7 @@ static void TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt
         kiriObstacleData* obstacle = row != NULL ? OwnerOfKey(world, row->key) : NULL;
         if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
             kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
-            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), touch->seen);
+            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), touch->on);
             obstacle->contacts += 1;
         }
     }
