@@ -2,7 +2,7 @@
 
     python3 pack.py LIBRARY FOLDER [PLATFORM]    a wheel with this library, and a source package
 
-pip takes it as the build backend, too (pyproject.toml): `pip install kiri-VERSION.tar.gz`, or `pip install bindings/python` in a
+pip takes it as the build backend, too (pyproject.toml): `pip install kiri_sheets-VERSION.tar.gz`, or `pip install bindings/python` in a
 checkout, compiles the library. That takes a C and a C++ compiler (CC, CXX) and Eigen (EIGEN_DIR, pkg-config, or where Debian
 has it). PLATFORM is the tag of the wheel, such as manylinux_2_28_x86_64; else it is that of this machine."""
 
@@ -21,10 +21,11 @@ import zipfile
 here = pathlib.Path(__file__).resolve().parent
 root = here if (here / "src").is_dir() else here.parents[1]  # a source package, or the repository
 sys.dont_write_bytecode = True
+NAME = "kiri-sheets"  # kiri is another package on PyPI; modules are imported as kiri
 TIME = (2026, 1, 1, 0, 0, 0)
 
 METADATA = """Metadata-Version: 2.4
-Name: kiri
+Name: {name}
 Version: {version}
 Summary: Cuts thin sheets while they move, inside a game's fixed tick
 License-Expression: MIT
@@ -54,8 +55,12 @@ def version():
     return text.partition('VERSION = "')[2].partition('"')[0]
 
 
+def base():
+    return f"{NAME.replace('-', '_')}-{version()}"
+
+
 def metadata():
-    return METADATA.format(version=version(), readme=(here / "README.md").read_text()).encode()
+    return METADATA.format(name=NAME, version=version(), readme=(here / "README.md").read_text()).encode()
 
 
 def modules():
@@ -68,7 +73,7 @@ def sources():
 
 def write_wheel(library, folder, platform=None):
     tag = f"py3-none-{platform or sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
-    name = f"kiri-{version()}.dist-info"
+    name = f"{base()}.dist-info"
     files = {f"kiri/{path.name}": path.read_bytes() for path in modules()}
     files["kiri/libkiri.so"] = pathlib.Path(library).read_bytes()
     files["kiri/include/kiri/kiri.h"] = (root / "include/kiri/kiri.h").read_bytes()
@@ -78,7 +83,7 @@ def write_wheel(library, folder, platform=None):
     rows = [f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
             for path, data in files.items()]
     files[f"{name}/RECORD"] = "\n".join([*rows, f"{name}/RECORD,,", ""]).encode()
-    wheel = pathlib.Path(folder) / f"kiri-{version()}-{tag}.whl"
+    wheel = pathlib.Path(folder) / f"{base()}-{tag}.whl"
     wheel.parent.mkdir(parents=True, exist_ok=True)
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, data in files.items():
@@ -113,19 +118,18 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    base = f"kiri-{version()}"
     files = {path.relative_to(here): path for path in [here / "pack.py", here / "pyproject.toml", here / "README.md", *modules()]}
     files.update({path.relative_to(root): path for path in [root / "LICENSE", root / "include/kiri/kiri.h", *sources(),
                                                             *sorted((root / "src").glob("*/*.h"))]})
     contents = {str(path): source.read_bytes() for path, source in files.items()}
     contents["PKG-INFO"] = metadata()
     pathlib.Path(sdist_directory).mkdir(parents=True, exist_ok=True)
-    with tarfile.open(pathlib.Path(sdist_directory) / f"{base}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
+    with tarfile.open(pathlib.Path(sdist_directory) / f"{base()}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
         for path, data in sorted(contents.items()):
-            entry = tarfile.TarInfo(f"{base}/{path}")
+            entry = tarfile.TarInfo(f"{base()}/{path}")
             entry.size, entry.mtime = len(data), 1767225600
             archive.addfile(entry, io.BytesIO(data))
-    return f"{base}.tar.gz"
+    return f"{base()}.tar.gz"
 
 
 def main(library, folder, platform=None):

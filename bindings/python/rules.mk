@@ -13,7 +13,7 @@ FIRST_CUT = cd $(WHEEL) && env -u KIRI_LIBRARY -u PYTHONPATH venv/bin/python
 package-python: $(BUILD)/libkiri.so
 	@rm -rf $(WHEEL) && $(PYTHON) bindings/python/pack.py $< $(WHEEL) $(PLATFORM) && cp bindings/python/first_cut.py $(WHEEL)
 	@$(PYTHON) -c 'import venv, ensurepip' 2> /dev/null || { echo "package-python: no venv, packages not tested"; exit 0; }; \
-	for package in $(WHEEL)/kiri-*.whl $(WHEEL)/kiri-*.tar.gz; do \
+	for package in $(WHEEL)/kiri_sheets-*.whl $(WHEEL)/kiri_sheets-*.tar.gz; do \
 	    $(NEW_PYTHON) $$package && ($(FIRST_CUT) first_cut.py) && ($(FIRST_CUT) -c "import kiri, pathlib; here = pathlib.Path(kiri.__file__).parent; \
 	        assert 'venv' in str(here) and all((here / name).exists() for name in ('include/kiri/kiri.h', 'libkiri.so', 'py.typed'))") || exit 1; done
 

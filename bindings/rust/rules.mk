@@ -64,8 +64,8 @@ package-rust: single
 	cp LICENSE $(RUST_STAGE)/kiri-sys; \
 	mkdir $(RUST_STAGE)/kiri-sys/library; cp build/single/kiri.h build/single/kiri.c build/single/kiri.cpp $(RUST_STAGE)/kiri-sys/library; \
 	cd $(RUST_STAGE); $(CARGO) package --workspace --no-verify --allow-dirty --quiet --target-dir $(RUST_TARGET); \
-	cd $(RUST_CLEAN); for crate in kiri-sys kiri; do tar xzf $(RUST_TARGET)/package/$$crate-$(VERSION).crate; done; \
-	printf '[package]\nname = "clean"\nversion = "0.0.0"\nedition = "2021"\n[workspace]\n[dependencies]\nkiri = { path = "kiri-%s" }\n[patch.crates-io]\nkiri-sys = { path = "kiri-sys-%s" }\n' $(VERSION) $(VERSION) > Cargo.toml; \
-	cp kiri-$(VERSION)/examples/first_cut.rs src/main.rs; \
+	cd $(RUST_CLEAN); for crate in kiri-sys kiri-sheets; do tar xzf $(RUST_TARGET)/package/$$crate-$(VERSION).crate; done; \
+	printf '[package]\nname = "clean"\nversion = "0.0.0"\nedition = "2021"\n[workspace]\n[dependencies]\nkiri-sheets = { path = "kiri-sheets-%s" }\n[patch.crates-io]\nkiri-sys = { path = "kiri-sys-%s" }\n' $(VERSION) $(VERSION) > Cargo.toml; \
+	cp kiri-sheets-$(VERSION)/examples/first_cut.rs src/main.rs; \
 	env -u KIRI_LIBRARY_DIR EIGEN_DIR='$(EIGEN)' $(CARGO) run --quiet --target-dir $(RUST_CLEAN)/target | grep -qx '2 pieces'; \
-	echo "rust: $(RUST_TARGET)/package: kiri-sys-$(VERSION).crate ($$(wc -c < $(RUST_TARGET)/package/kiri-sys-$(VERSION).crate) bytes) and kiri-$(VERSION).crate, and a program of the two cuts"
+	echo "rust: $(RUST_TARGET)/package: kiri-sys-$(VERSION).crate ($$(wc -c < $(RUST_TARGET)/package/kiri-sys-$(VERSION).crate) bytes) and kiri-sheets-$(VERSION).crate, and a program of the two cuts"
