@@ -45,7 +45,7 @@ static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
 {
     Row row = Row_Make(name, "rows", def->layout.count, def->grid, 1e-4, 0.0);
     snprintf(row.setting, sizeof row.setting, "%s", setting);
-    Specimen* specimen = Specimen_Create(def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(def);
     if (specimen == NULL) {
         row.error = NAN;
         return row;
@@ -54,7 +54,6 @@ static Row Hang(const SpecimenDef* def, const char* name, const char* setting)
     Specimen_Settle(specimen);
     row.error = ElasticaError(specimen, def);
     row.milliseconds = specimen->milliseconds;
-    Specimen_Destroy(specimen);
     return row;
 }
 
@@ -97,7 +96,7 @@ static void HeldFrames(const char* data)
             if (ends) {
                 Layout_MakeToEnds(&def.layout, LAYOUT_ROWS, def.length, def.width, frames[k], 1);
             }
-            Specimen* specimen = Specimen_Create(&def);
+            SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
             Require(specimen != NULL, "a strip is refused");
             Row row = Row_Make("held frames", "rows", frames[k], def.grid, 1e-4, 0.0);
             snprintf(row.setting, sizeof row.setting, "nu 0, %s", ends ? "site on the edge" : "site in its region");
@@ -106,7 +105,6 @@ static void HeldFrames(const char* data)
             row.error = ElasticaError(specimen, &def);
             row.milliseconds = specimen->milliseconds;
             Results_Add(&row);
-            Specimen_Destroy(specimen);
         }
     }
 }
@@ -179,7 +177,7 @@ static void AddTip(const SpecimenDef* def, const char* name, const char* setting
 {
     Row row = Row_Make(name, "rows", def->layout.count, def->grid, 1e-4, target);
     snprintf(row.setting, sizeof row.setting, "%s", setting);
-    Specimen* specimen = Specimen_Create(def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(def);
     if (specimen == NULL) {
         return;
     }
@@ -187,7 +185,6 @@ static void AddTip(const SpecimenDef* def, const char* name, const char* setting
     Specimen_Settle(specimen);
     row.milliseconds = specimen->milliseconds;
     Results_AddValue(row, TipMove(specimen, def, axis), theory, "m");
-    Specimen_Destroy(specimen);
 }
 
 /* The thickness makes gamma. */
@@ -270,7 +267,7 @@ static SpecimenDef SzeStrip(double length, int frames, int grid)
 static void AddEndLoad(double P, const double moves[2], int frames, int grid)
 {
     SpecimenDef def = SzeStrip(10.0, frames, grid);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -286,7 +283,6 @@ static void AddEndLoad(double P, const double moves[2], int frames, int grid)
     Results_AddValue(row, tip[2], moves[1], "m");
     snprintf(row.setting, sizeof row.setting, "P %g, shortening", P);
     Results_AddValue(row, 10.0 - tip[0], moves[0], "m");
-    Specimen_Destroy(specimen);
 }
 
 static void EndLoad(const char* data)
@@ -306,7 +302,7 @@ static void EndLoad(const char* data)
 static void AddRollUp(int halfTurns, int frames, int grid)
 {
     SpecimenDef def = SzeStrip(12.0, frames, grid);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -325,7 +321,6 @@ static void AddRollUp(int halfTurns, int frames, int grid)
     row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu 0, turn %d pi", halfTurns);
     Results_Add(&row);
-    Specimen_Destroy(specimen);
 }
 
 static void RollUp(const char* data)
@@ -363,7 +358,7 @@ static void FirstFrequency(const char* data)
             def.grid = grids[g];
             def.material.airDamping = 0.0f;
             Layout_Make(&def.layout, LAYOUT_ROWS, L, def.width, frames[k], 1);
-            Specimen* specimen = Specimen_Create(&def);
+            SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
             if (specimen == NULL) {
                 continue;
             }
@@ -373,7 +368,6 @@ static void FirstFrequency(const char* data)
             snprintf(row.setting, sizeof row.setting, "%s", "nu 0");
             row.milliseconds = specimen->milliseconds;
             Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
-            Specimen_Destroy(specimen);
         }
     }
 }

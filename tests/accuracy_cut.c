@@ -17,7 +17,7 @@ static const int GRIDS[] = { 40, 80, 160 };
 /* Mean drop of the edge u = length, as seen; or NAN. */
 static double EdgeDrop(const SpecimenDef* def, double* milliseconds)
 {
-    Specimen* specimen = Specimen_Create(def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(def);
     if (specimen == NULL) {
         return NAN;
     }
@@ -34,7 +34,6 @@ static double EdgeDrop(const SpecimenDef* def, double* milliseconds)
         }
     }
     *milliseconds = specimen->milliseconds;
-    Specimen_Destroy(specimen);
     return sum / count;
 }
 
@@ -74,7 +73,7 @@ static void SlitAcross(const char* data)
 static double Stiffness(const SpecimenDef* def, double move, double* milliseconds)
 {
     const double shift[3] = { move, 0.0, 0.0 };
-    Specimen* specimen = Specimen_Create(def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(def);
     if (specimen == NULL) {
         return NAN;
     }
@@ -85,7 +84,6 @@ static double Stiffness(const SpecimenDef* def, double move, double* millisecond
     Specimen_Settle(specimen);
     Specimen_Reaction(specimen, end, force);
     *milliseconds = specimen->milliseconds;
-    Specimen_Destroy(specimen);
     return force[0] / move;
 }
 
@@ -192,7 +190,7 @@ static double OutOfPlane(const Accordion* a, double* milliseconds)
 {
     SpecimenDef def = AccordionDef(a);
     const double pull = 0.008, push[3] = { 0.0, 0.0, -1e-3 * G };
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     Require(specimen != NULL, "an accordion is refused");
     Specimen_ClampEnd(specimen, &def, 0.0);
     kiriPin end = Specimen_ClampEnd(specimen, &def, def.length);
@@ -202,7 +200,6 @@ static double OutOfPlane(const Accordion* a, double* milliseconds)
     Specimen_SetGravity(specimen, NOWHERE);
     double force = PullingForce(specimen, end, pull);
     *milliseconds = specimen->milliseconds;
-    Specimen_Destroy(specimen);
     return force / pull;
 }
 
@@ -258,13 +255,12 @@ static double Difference(const Specimen* a, const Specimen* b)
 static void SpreadFrames(SpecimenDef* def, int frames)
 {
     def->frames = frames;
-    Specimen* spread = Specimen_Create(def);
+    SCOPED_SPECIMEN(spread) = Specimen_Create(def);
     Require(spread != NULL, "frames are refused");
     def->layout.count = spread->count;
     for (int i = 0; i < spread->count; ++i) {
         memcpy(&def->layout.points[2 * i], spread->states[i].restPoint, 2 * sizeof(float));
     }
-    Specimen_Destroy(spread);
 }
 
 static Specimen* HangTongue(const SpecimenDef* def, const Slit* slit, bool loadFirst)

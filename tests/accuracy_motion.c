@@ -68,7 +68,7 @@ static Specimen* MakePendulum(int frames, int timeStepping)
 
 static void AddSwing(int timeStepping, int frames, int substeps)
 {
-    Specimen* specimen = MakePendulum(frames, timeStepping);
+    SCOPED_SPECIMEN(specimen) = MakePendulum(frames, timeStepping);
     kiriTotals totals;
     kiriSheet_GetTotals(specimen->world, specimen->sheet, &totals);
     double first = Energy(specimen), given = totals.kineticEnergy, start = ProcessorTime(NULL);
@@ -81,7 +81,6 @@ static void AddSwing(int timeStepping, int frames, int substeps)
     snprintf(row.setting, sizeof row.setting, "%s, after 10 s",
              timeStepping == KIRI_TIME_STEPPING_EULER ? "Euler" : "second order");
     Results_AddValue(row, (given + Energy(specimen) - first) / given, 1.0, "1");
-    Specimen_Destroy(specimen);
 }
 
 static void Swing(const char* data)

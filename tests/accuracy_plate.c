@@ -77,7 +77,7 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
     double theory = (twist ? torsion : mode->bending) / (def.length * def.length);
     theory *= sqrt(Rigidity(&def.material) / 1000.0);
     double amplitude = 0.1 * 5e-4 / (twist ? 0.5 * def.width : 2.0); /* a tenth of the thickness: it stays linear */
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -88,7 +88,6 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
     snprintf(row.setting, sizeof row.setting, "W/L %g, nu %g, %d row%s", mode->width, mode->poisson, rows,
              rows > 1 ? "s" : "");
     Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
-    Specimen_Destroy(specimen);
 }
 
 static void Torsion(const char* data)
@@ -170,7 +169,7 @@ static void AddFreeMode(const FreeMode* mode, int n, int along, int kind)
     def.material.airDamping = 0.0f;
     Layout_MakeFramed(&def.layout, kind, def.length, def.width, along, along);
     double theory = mode->value[n] / 0.01 * sqrt(Rigidity(&def.material) / 1000.0);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -179,7 +178,6 @@ static void AddFreeMode(const FreeMode* mode, int n, int along, int kind)
     row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", POISSON[n], mode->name);
     Results_AddValue(row, found / (2.0 * PI), theory / (2.0 * PI), "Hz");
-    Specimen_Destroy(specimen);
 }
 
 static void FreePlate(const char* data)
@@ -208,12 +206,11 @@ static double SidewaysFrequency(const SpecimenDef* def, double gamma, double gue
     double L = def->length;
     SpecimenDef loaded = *def;
     loaded.gravity[1] = -gamma * Rigidity(m) / ((double)m->density * L * L * L);
-    Specimen* specimen = Specimen_Create(&loaded);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&loaded);
     Require(specimen != NULL, "a strip on edge is refused");
     Specimen_ClampEnd(specimen, def, 0.0);
     double found = Specimen_Frequency(specimen, BendShape, &L, 2e-4, guess);
     *milliseconds = specimen->milliseconds;
-    Specimen_Destroy(specimen);
     return found;
 }
 
@@ -284,7 +281,7 @@ static void AddState(const char* name, const double strain[3], int n, int kind, 
     def.grid = grid;
     def.planar = 1;
     Layout_MakeFramed(&def.layout, kind, def.length, def.width, along, along);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -301,7 +298,6 @@ static void AddState(const char* name, const double strain[3], int n, int kind, 
     Row row = Row_Make("membrane", layoutNames[kind], specimen->count, grid, 2e-3, 0.01);
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", nu, name);
     Results_AddValue(row, totals.elasticEnergy, theory * 0.01, "J");
-    Specimen_Destroy(specimen);
 }
 
 /* A strip that is pulled; how much narrower its middle is. */
@@ -314,7 +310,7 @@ static void AddNarrowing(int n, int kind, int rows, int model)
     def.planar = 1;
     def.model = model;
     Layout_Make(&def.layout, kind, def.length, def.width, 4 * rows, rows);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -338,7 +334,6 @@ static void AddNarrowing(int n, int kind, int rows, int model)
     row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "nu %g, %s", POISSON[n], model == KIRI_MODEL_LINKS ? "links" : "affine");
     Results_AddValue(row, -sums[0] / sums[1] / (sums[2] / sums[3]), POISSON[n], "1");
-    Specimen_Destroy(specimen);
 }
 
 static void Membrane(const char* data)

@@ -35,7 +35,7 @@ static double ShellError(const Specimen* specimen, const Shell* shell)
 /* Clamped along u = 0, under its weight, with its frames as the def has them. */
 static void AddShell(const SpecimenDef* def, const char* name, const char* layout, const Shell* shell, double target)
 {
-    Specimen* specimen = Specimen_Create(def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(def);
     if (specimen == NULL) {
         return;
     }
@@ -52,7 +52,6 @@ static void AddShell(const SpecimenDef* def, const char* name, const char* layou
                  100.0 * def->accuracy);
     }
     Results_Add(&row);
-    Specimen_Destroy(specimen);
 }
 
 /* The sheet of the shell data, its frames still to be chosen. */
@@ -216,7 +215,7 @@ static void AddAnnulus(int rings, int around, int grid)
     def.material.density = 1.0f;
     def.material.airDamping = 2.0f;
     PlaceInRings(&def.layout, rings, around);
-    Specimen* specimen = Specimen_Create(&def);
+    SCOPED_SPECIMEN(specimen) = Specimen_Create(&def);
     if (specimen == NULL) {
         return;
     }
@@ -233,7 +232,6 @@ static void AddAnnulus(int rings, int around, int grid)
     Results_AddValue(row, LiftOf(specimen, 0), 13.891, "m");
     snprintf(row.setting, sizeof row.setting, "nu 0, outer corner");
     Results_AddValue(row, LiftOf(specimen, ACROSS), 17.528, "m");
-    Specimen_Destroy(specimen);
 }
 
 static void Annulus(const char* data)

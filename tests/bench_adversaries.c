@@ -20,14 +20,13 @@ static bool CutAlong(Bed* bed, int32_t sheet, const float* points, int32_t count
 /* From radius to 0, about the middle. */
 static bool CutSpiral(Bed* bed, int32_t count, double turns, double radius)
 {
-    float* points = malloc(2 * sizeof(float) * (size_t)count);
+    FREED(float, points) = malloc(2 * sizeof(float) * (size_t)count);
     for (int32_t i = 0; points != NULL && i < count; i++) {
         double share = 1.0 - (double)i / count, angle = 6.283185307179586 * turns * share;
         points[2 * i] = (float)(0.503 + radius * share * cos(angle));
         points[2 * i + 1] = (float)(0.497 + radius * share * sin(angle));
     }
     bool fine = points != NULL && CutAlong(bed, 0, points, count);
-    free(points);
     return fine;
 }
 
@@ -142,8 +141,8 @@ static bool DropCrumbs(Bed* bed, int32_t action)
 static bool AddBetweenLines(Bed* bed, kiriSheetDef* def, const double* lines, int32_t count)
 {
     size_t n = (size_t)count;
-    float* rest = malloc(2 * sizeof(float) * n * n);
-    int32_t* indices = malloc(6 * sizeof(int32_t) * n * n);
+    FREED(float, rest) = malloc(2 * sizeof(float) * n * n);
+    FREED(int32_t, indices) = malloc(6 * sizeof(int32_t) * n * n);
     bool fine = rest != NULL && indices != NULL &&
                 kiriFillRectangle(1.0f, 1.0f, count - 1, count - 1, rest, indices) == KIRI_OK;
     for (size_t i = 0; fine && i < n * n; i++) {
@@ -155,8 +154,6 @@ static bool AddBetweenLines(Bed* bed, kiriSheetDef* def, const double* lines, in
     def->vertexCount = count * count;
     def->triangleCount = 2 * (count - 1) * (count - 1);
     fine = fine && kiriCreateSheet(bed->world, def, &bed->sheets[0]) == KIRI_OK;
-    free(rest);
-    free(indices);
     return fine;
 }
 
@@ -287,14 +284,13 @@ static const char* NameOfStage(int32_t stage)
 
 static double MedianWaiting(const Course* course)
 {
-    Series series = { .number = NULL };
+    SCOPED(Series, series, Series_Free);
     for (int32_t i = 0; i < course->count; i++) {
         if (course->waits[i]) {
             Series_Add(&series, course->times[i]);
         }
     }
     double median = series.count > 0 ? Series_Median(&series) : course->plain;
-    Series_Free(&series);
     return median;
 }
 
@@ -391,7 +387,7 @@ static void PrintPaces(Table* table, const Paces* paces)
 static bool RunRows(Table* table, const char* name, const kiriBudget* budget, Paces* paces)
 {
     Course* shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    Course* course = malloc(sizeof *course);
+    FREED(Course, course) = malloc(sizeof *course);
     bool fine = course != NULL && shared != MAP_FAILED, found = false;
     for (size_t i = 0; fine && i < ROWS; i++) {
         if (name == NULL || strcmp(name, adversaries[i].name) == 0) {
@@ -404,7 +400,6 @@ static bool RunRows(Table* table, const char* name, const kiriBudget* budget, Pa
             }
         }
     }
-    free(course);
     return fine && found;
 }
 

@@ -162,12 +162,11 @@ static bool Print(Stage* stage, const char* name, const char* title, const Row* 
         return false;
     }
     for (size_t i = 0; i < count; i++) {
-        Series seconds = { .number = NULL };
+        SCOPED(Series, seconds, Series_Free);
         Measure(stage, &rows[i], &seconds);
         Table_Text(&table, rows[i].name);
         Table_Number(&table, units * Series_Quantile(&seconds, 0.0));
         Table_Number(&table, units * Series_Median(&seconds));
-        Series_Free(&seconds);
     }
     return Table_Stop(&table);
 }

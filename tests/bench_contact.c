@@ -84,7 +84,7 @@ static bool Measure(kiriWorld* world, const Case* c, Cost* cost)
 static bool RunCase(const Case* c, Cost* cost)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = 32;
@@ -93,7 +93,6 @@ static bool RunCase(const Case* c, Cost* cost)
     def.velocity[0] = c->sleeps ? 0.0f : 2.0f;
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK;
     fine = fine && AddObstacles(world, c) && Bench_AddSheet(world, &def, SQUARES, &sheet) && Measure(world, c, cost);
-    kiriDestroyWorld(world);
     return fine;
 }
 

@@ -51,7 +51,7 @@ typedef struct Made {
 static bool Make(int32_t squares, int32_t grid, Made* made)
 {
     Count count = { 0, 0 };
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid > 0 ? grid : def.gridResolution;
@@ -65,7 +65,6 @@ static bool Make(int32_t squares, int32_t grid, Made* made)
     fine = fine && kiriWorld_Tick(world, 1.0f / 60.0f, 1) == KIRI_OK;
     made->firstTick = 1e3 * (Bench_Clock(NULL) - start);
     made->after = count.bytes;
-    kiriDestroyWorld(world);
     return fine;
 }
 
@@ -115,7 +114,7 @@ static bool BenchSizes(void)
 static bool MakeFrames(int32_t squares, int32_t grid, int32_t frames, bool isMost, int32_t* made, double* ms)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriCounts counts = { .frames = 0 };
     kiriSheetDef def = DefaultSheet();
@@ -128,7 +127,6 @@ static bool MakeFrames(int32_t squares, int32_t grid, int32_t frames, bool isMos
     *ms = 1e3 * (Bench_Clock(NULL) - start);
     fine = fine && kiriSheet_GetCounts(world, sheet, &counts) == KIRI_OK;
     *made = counts.frames;
-    kiriDestroyWorld(world);
     return fine;
 }
 
@@ -173,10 +171,10 @@ static bool BenchFrames(void)
 static bool MakeCrowd(int32_t triangles, double extent, double* ms)
 {
     int32_t side = (int32_t)(sqrt(0.5 * triangles) + 0.5), n = (side + 1) * (side + 1), count = 2 * side * side;
-    float* rest = malloc(2 * sizeof(float) * (size_t)(n + 3));
-    int32_t* indices = malloc(3 * sizeof(int32_t) * (size_t)(count + 1));
+    FREED(float, rest) = malloc(2 * sizeof(float) * (size_t)(n + 3));
+    FREED(int32_t, indices) = malloc(3 * sizeof(int32_t) * (size_t)(count + 1));
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     bool fine = rest != NULL && indices != NULL && kiriCreateWorld(&worldDef, &world) == KIRI_OK &&
@@ -195,9 +193,6 @@ static bool MakeCrowd(int32_t triangles, double extent, double* ms)
         fine = kiriCreateSheet(world, &def, &sheet) == KIRI_OK;
         *ms = 1e3 * (Bench_Clock(NULL) - start);
     }
-    kiriDestroyWorld(world);
-    free(rest);
-    free(indices);
     return fine;
 }
 
@@ -274,7 +269,7 @@ static bool TimeSlice(kiriWorld* world, kiriSheet sheet, double* ms)
 static bool Ask(int32_t squares, Asked* asked)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, squares, &sheet) &&
@@ -282,7 +277,6 @@ static bool Ask(int32_t squares, Asked* asked)
                 TimePieces(world, sheet, &asked->pieces, &asked->nextPieces) && TimeRay(world, sheet, &asked->ray) &&
                 kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeRay(world, sheet, &asked->nextRay) &&
                 TimeSlice(world, sheet, &asked->slice);
-    kiriDestroyWorld(world);
     return fine;
 }
 

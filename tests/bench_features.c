@@ -123,9 +123,9 @@ static double TimedTick(kiriWorld* world)
 
 static bool Run(void (*set)(kiriSheetDef* def), Cost* cost)
 {
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
-    Series plain = { NULL, 0, 0 };
+    SCOPED(Series, plain, Series_Free);
     if (!MakeWorld(&world, &sheet, set)) {
         return false;
     }
@@ -149,8 +149,6 @@ static bool Run(void (*set)(kiriSheetDef* def), Cost* cost)
     cost->tick = Series_Median(&plain);
     cost->bytes = (double)liveBytes;
     cost->frames = counts.frames;
-    Series_Free(&plain);
-    kiriDestroyWorld(world);
     return true;
 }
 

@@ -67,7 +67,7 @@ static bool CutShort(kiriWorld* world, kiriSheet sheet, int32_t grid, int32_t pl
 static bool RunSize(int32_t grid, int32_t places, bool fromScratch, CommitTimes* times)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid;
@@ -79,7 +79,6 @@ static bool RunSize(int32_t grid, int32_t places, bool fromScratch, CommitTimes*
     for (int32_t place = 0; fine && place < places; place++) {
         fine = CutShort(world, sheet, grid, place, times);
     }
-    kiriDestroyWorld(world);
     return fine;
 }
 
@@ -180,9 +179,9 @@ static bool RunLoad(const Load* load, LoadTimes* times)
     def.gridResolution = load->grid;
     def.frameCount = def.maxFrames = load->frames;
     def.sleepSpeed = load->asleep ? def.sleepSpeed : 0.0f;
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     size_t vertices = (size_t)(load->squares + 1) * (size_t)(load->squares + 1);
-    float* buffer = malloc(6 * sizeof(float) * vertices);
+    FREED(float, buffer) = malloc(6 * sizeof(float) * vertices);
     kiriSheet* sheets = calloc((size_t)load->sheets, sizeof *sheets);
     bool fine = buffer != NULL && sheets != NULL && kiriCreateWorld(&worldDef, &world) == KIRI_OK;
     for (int32_t i = 0; fine && i < load->sheets; i++) {
@@ -192,8 +191,6 @@ static bool RunLoad(const Load* load, LoadTimes* times)
     for (int32_t i = 0, awake; fine && i < load->sheets; i++) {
         fine = kiriSheet_IsAwake(world, sheets[i], &awake) == KIRI_OK && (awake == 0) == load->asleep;
     }
-    kiriDestroyWorld(world);
-    free(buffer);
     free(sheets);
     return fine;
 }

@@ -211,12 +211,11 @@ static int PhaseOf(const Recording* recording, int32_t tick)
 /* The median over the runs. */
 static double TimeOf(const Recording* recording, int mode, int32_t tick, int quantity)
 {
-    Series runs = { .number = NULL };
+    SCOPED(Series, runs, Series_Free);
     for (int run = 0; run < RUNS; run++) {
         Series_Add(&runs, recording->times[mode][tick][quantity][run]);
     }
     double median = Series_Median(&runs);
-    Series_Free(&runs);
     return median;
 }
 
@@ -288,18 +287,17 @@ static double AimOf(const Recording* recording, int phase, int quantity, bool wo
 /* Median and worst. */
 static void PrintTimes(Table* table, const Recording* recording, int mode, int phase, int quantity)
 {
-    Series series = TimesOf(recording, mode, phase, phase, quantity);
+    SCOPED_AS(Series, series, Series_Free) = TimesOf(recording, mode, phase, phase, quantity);
     double median = Series_Median(&series), worst = Series_Worst(&series);
     bool judged = mode == INCREMENTAL;
     Table_Judge(table, median, !judged || !(median > AimOf(recording, phase, quantity, false)));
     Table_Judge(table, worst, !judged || !(worst > AimOf(recording, phase, quantity, true)));
-    Series_Free(&series);
 }
 
 /* How many times longer a tick that cuts takes from scratch; NaN where that is nothing. */
 static double RatioOf(const Recording* recording, int quantity)
 {
-    Series ratios = { .number = NULL };
+    SCOPED(Series, ratios, Series_Free);
     for (int32_t i = 0; i < recording->type->ticks; i++) {
         double time = TimeOf(recording, INCREMENTAL, i, quantity);
         if (PhaseOf(recording, i) == CUTTING && time > 0.0) {
@@ -307,7 +305,6 @@ static double RatioOf(const Recording* recording, int quantity)
         }
     }
     double median = Series_Median(&ratios);
-    Series_Free(&ratios);
     return median;
 }
 
@@ -342,14 +339,13 @@ static bool PrintStages(const Recording* recording)
 static void GetShares(const Recording* recording, double means[SHARES])
 {
     for (int k = 0; k < SHARES; k++) {
-        Series series = { .number = NULL };
+        SCOPED(Series, series, Series_Free);
         for (int32_t i = 0; i < recording->type->ticks; i++) {
             if (PhaseOf(recording, i) == CUTTING) {
                 Series_Add(&series, ShareOf(&recording->facts[i], k));
             }
         }
         means[k] = Series_Mean(&series);
-        Series_Free(&series);
     }
 }
 
@@ -399,7 +395,7 @@ static bool PrintShares(void)
 /* Mean and worst over the ticks of a phase, from the first one on. */
 static void PrintCalls(Table* table, const Recording* recording, int phase, int32_t from)
 {
-    Series series = { .number = NULL };
+    SCOPED(Series, series, Series_Free);
     for (int32_t i = from; i < recording->type->ticks; i++) {
         if (PhaseOf(recording, i) == phase) {
             Series_Add(&series, (double)recording->facts[i].allocations);
@@ -407,7 +403,6 @@ static void PrintCalls(Table* table, const Recording* recording, int phase, int3
     }
     Table_Judge(table, Series_Mean(&series), phase == CUTTING || Series_Worst(&series) == 0.0);
     Table_Number(table, Series_Worst(&series));
-    Series_Free(&series);
 }
 
 static bool PrintAllocations(void)
@@ -441,11 +436,9 @@ static void PrintModeRow(Table* table, const Recording* recording, const char* n
     Table_Text(table, recording->paper->scene);
     Table_Text(table, name);
     for (int i = 0; i < 3; i++) {
-        Series own = TimesOf(recording, mode, phases[i], phases[i], ALL);
-        Series plain = TimesOf(recording, PLAIN, phases[i], phases[i], ALL);
+        SCOPED_AS(Series, own, Series_Free) = TimesOf(recording, mode, phases[i], phases[i], ALL);
+        SCOPED_AS(Series, plain, Series_Free) = TimesOf(recording, PLAIN, phases[i], phases[i], ALL);
         Table_Number(table, ratio ? Series_Median(&own) / Series_Median(&plain) : Series_Median(&own));
-        Series_Free(&own);
-        Series_Free(&plain);
     }
     double bytes = (double)recording->bytes[mode];
     Table_Number(table, ratio ? bytes / (double)recording->bytes[PLAIN] : 1e-6 * bytes);

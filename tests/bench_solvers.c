@@ -62,7 +62,7 @@ static SparseSystem ReadSystem(kiriSolver* solver)
                             malloc(sizeof(int32_t) * most),
                             malloc(sizeof(double) * most),
                             solver->force.data };
-    kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
+    FREED(kiriPair, pair) = malloc(sizeof(kiriPair) * (size_t)pairs);
     kiriMatrix_GetPairs(matrix, pair);
     for (int32_t f = 0; f < frames; ++f) {
         AddEntries(&system, matrix, size, f, f);
@@ -71,7 +71,6 @@ static SparseSystem ReadSystem(kiriSolver* solver)
         bool isSwapped = pair[k].a < pair[k].b;
         AddEntries(&system, matrix, size, isSwapped ? pair[k].b : pair[k].a, isSwapped ? pair[k].a : pair[k].b);
     }
-    free(pair);
     return system;
 }
 
@@ -91,7 +90,7 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
     int32_t pairs = kiriMatrix_PairCount(own);
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     kiriMatrix* matrix = kiriMatrix_Create(&memory, solver->size);
-    kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
+    FREED(kiriPair, pair) = malloc(sizeof(kiriPair) * (size_t)pairs);
     double start = Bench_Clock(NULL);
     kiriMatrix_GetPairs(own, pair);
     bool fine = kiriMatrix_Shape(matrix, kiriMatrix_FrameCount(own), pair, pairs);
@@ -101,7 +100,6 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
     kiriMatrix_Solve(own, solver->force.data, solution);
     *times = (SolverTimes){ analysed - start, factored - analysed, Bench_Clock(NULL) - factored, 0 };
     kiriMemory_FreeAll(&memory);
-    free(pair);
     return fine;
 }
 
@@ -125,8 +123,8 @@ static bool BenchSolvers(Table* table, kiriSolver* solver)
 {
     int32_t frames = kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix);
     SparseSystem system = ReadSystem(solver);
-    double* reference = malloc(sizeof(double) * (size_t)system.unknowns);
-    double* solution = malloc(sizeof(double) * (size_t)system.unknowns);
+    FREED(double, reference) = malloc(sizeof(double) * (size_t)system.unknowns);
+    FREED(double, solution) = malloc(sizeof(double) * (size_t)system.unknowns);
     int runs = frames > SLOW_FRAMES ? 1 : RUNS;
     SolverTimes least, times, ours;
     EigenSolvers_Reference(&system, reference);
@@ -151,8 +149,6 @@ static bool BenchSolvers(Table* table, kiriSolver* solver)
     free((void*)system.row);
     free((void*)system.column);
     free((void*)system.value);
-    free(reference);
-    free(solution);
     return fine;
 }
 
@@ -171,11 +167,10 @@ int main(void)
         "end at a residual of 1e-9, or after 1000 rounds. SparseLU counts what it does in `factor`.",
         columns);
     for (size_t i = 0; fine && i < sizeof counts / sizeof counts[0]; ++i) {
-        kiriWorld* world = NULL;
+        SCOPED_WORLD(world) = NULL;
         bool isLast = i + 1 == sizeof counts / sizeof counts[0]; /* 12 unknowns a frame */
         fine = MakeSheet(&world, counts[i], isLast ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS) &&
                BenchSolvers(&table, world->sheets.data[0]->solver);
-        kiriDestroyWorld(world);
     }
     fine = Table_Stop(&table) && fine;
     if (!fine) {

@@ -58,12 +58,12 @@ static void PointAt(float share, float point[2])
 
 static bool Cross(const Swipe* swipe, const kiriBudget* budget, Course* course)
 {
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriCut cut;
     kiriCounts counts = { .pieces = 0 };
     float point[2];
-    Series plain = { .number = NULL };
+    SCOPED(Series, plain, Series_Free);
     bool fine = Start(swipe, budget, &world, &sheet);
     *course = (Course){ .ticks = 0 };
     for (int i = 0; fine && i < PLAIN_TICKS; i++) {
@@ -86,8 +86,6 @@ static bool Cross(const Swipe* swipe, const kiriBudget* budget, Course* course)
         AddWork(&course->cuts, &profile);
     }
     course->late = course->ticks - swipe->ticks + 1;
-    Series_Free(&plain);
-    kiriDestroyWorld(world);
     return fine && counts.pieces == 2;
 }
 

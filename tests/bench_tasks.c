@@ -69,7 +69,7 @@ static bool Run(const Row* row, int32_t workers, double* seconds, uint64_t* hash
 {
     Crew crew;
     kiriWorldDef def;
-    kiriWorld* world = NULL;
+    SCOPED_WORLD(world) = NULL;
     kiriDefaultWorldDef(&def);
     def.startTask = workers > 0 ? StartTask : NULL;
     def.finishTask = workers > 0 ? FinishTask : NULL;
@@ -85,7 +85,6 @@ static bool Run(const Row* row, int32_t workers, double* seconds, uint64_t* hash
         }
     }
     fine = fine && kiriWorld_GetStateHash(world, hash) == KIRI_OK;
-    kiriDestroyWorld(world);
     Crew_Stop(&crew);
     return fine;
 }

@@ -140,7 +140,7 @@ static void MeasureFall(const Case* c)
     char variant[80];
     double deepest = 0.0, gained = 0.0, lowest = 0.0, fastest = 0.0, borne = 0.0, last = HUGE_VAL;
     int isThrough = 0;
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriWorldDef def;
     kiriTotals totals;
     kiriDefaultWorldDef(&def);
@@ -175,7 +175,6 @@ static void MeasureFall(const Case* c)
         Contact_Limit("body: speed after 9 s", variant, fastest, 0.02, "m/s");
         Contact_Line("body: weight that is borne", variant, borne, 1.0, 0.01, "of 1");
     }
-    kiriDestroyWorld(world);
 }
 
 void Contact_MeasureBodies(void)

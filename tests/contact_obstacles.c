@@ -250,7 +250,7 @@ static void MeasureBall(float ratio, int32_t substeps)
     kiriWorldDef worldDef;
     kiriDefaultWorldDef(&worldDef);
     worldDef.gravity[2] = 0.0f;
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriCreateWorld(&worldDef, &world);
     kiriSheet sheet = MakePlate(world, -1.0f);
     kiriTotals totals;
@@ -285,7 +285,6 @@ static void MeasureBall(float ratio, int32_t substeps)
     double end = totals.momentum[2] + (double)def.mass * velocity[2];
     Contact_Limit("momentum that is lost", variant, 100.0 * fabs(end / start - 1.0), 1.0, "%");
     Contact_Limit("most energy, to that at start", variant, most / energy, 1.01, "");
-    kiriDestroyWorld(world);
 }
 
 /* ---- Fast -------------------------------------------------------------------------------------------------------- */
@@ -297,7 +296,7 @@ static void MeasureFast(int isEdgeOn, int32_t substeps)
     static int32_t indices[6 * 32 * 32];
     kiriWorldDef worldDef;
     kiriDefaultWorldDef(&worldDef);
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriCreateWorld(&worldDef, &world);
     kiriObstacleDef wall = DefaultObstacle();
     wall.type = KIRI_OBSTACLE_BOX;
@@ -332,7 +331,6 @@ static void MeasureFast(int isEdgeOn, int32_t substeps)
     char variant[64];
     snprintf(variant, sizeof(variant), "%s, %d substeps", isEdgeOn ? "edge-on" : "flat", (int)substeps);
     Contact_Limit("100 m/s through 1 cm", variant, passed, 0.0, "vertices");
-    kiriDestroyWorld(world);
 }
 
 void Contact_MeasureObstacles(void)

@@ -106,7 +106,7 @@ static Rest Watch(const Scene* scene, const Setup* setup, double seconds)
 {
     static float before[3 * (MOST_CELLS + 1) * (MOST_CELLS + 1)];
     kiriSheet sheet = 0;
-    kiriWorld* world = MakeScene(scene, setup, &sheet);
+    SCOPED_WORLD(world) = MakeScene(scene, setup, &sheet);
     Rest rest = { 0.0, -HUGE_VAL, -HUGE_VAL, seconds, 0.0 };
     int32_t ticks = (int32_t)(seconds / setup->dt), done = 0;
     double spent = 0.0;
@@ -142,7 +142,6 @@ static Rest Watch(const Scene* scene, const Setup* setup, double seconds)
         }
     }
     rest.milliseconds = 1e3 * spent / done;
-    kiriDestroyWorld(world);
     return rest;
 }
 

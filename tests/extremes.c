@@ -1,5 +1,6 @@
 #include "defaults.h"
 #include "extremes.h"
+#include "scoped.h"
 
 #include "core/kiri_vec.h"
 
@@ -741,7 +742,7 @@ static bool IsFine(const Outcome* outcome)
 
 static Outcome RunOnce(const Extreme* e, bool damped)
 {
-    Trial* trial = malloc(sizeof(*trial));
+    FREED(Trial, trial) = malloc(sizeof(*trial));
     Start(trial, e, damped);
     int ticks = (int)Or(e->ticks, 600), cause = (int)Or(e->cause, 30);
     double largest = 0.0, peak = 0.0, size = trial->size;
@@ -767,7 +768,6 @@ static Outcome RunOnce(const Extreme* e, bool damped)
     trial->outcome.frames = trial->frameCount;
     kiriDestroyWorld(trial->world);
     Outcome outcome = trial->outcome;
-    free(trial);
     return outcome;
 }
 

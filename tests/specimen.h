@@ -4,6 +4,7 @@
 #define KIRI_TEST_SPECIMEN_H
 
 #include "kiri/kiri.h"
+#include "scoped.h"
 
 #include "frame_layout.h"
 
@@ -66,6 +67,15 @@ SpecimenDef Specimen_Strip(double young, double poisson, double thickness);
 /* Null where the library refuses the frames, too many or too near for the grid: then it has said so. */
 Specimen* Specimen_Create(const SpecimenDef* def);
 void Specimen_Destroy(Specimen* specimen);
+
+#define SCOPED_SPECIMEN(name) SCOPED_AS(Specimen*, name, Specimen_End)
+
+static inline void Specimen_End(Specimen** specimen)
+{
+    if (*specimen != NULL) {
+        Specimen_Destroy(*specimen);
+    }
+}
 
 /* Reads the states of the frames. */
 void Specimen_Look(Specimen* specimen);

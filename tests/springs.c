@@ -89,7 +89,7 @@ bool Lattice_Make(Lattice* l, const LatticeDef* def)
     l->columns = (int)(def->length / def->side + 0.5) + def->ghosts;
     l->rows = (int)(def->width / def->side + 0.5);
     size_t squares = (size_t)(l->columns * l->rows);
-    int* scratch = malloc(8 * squares * sizeof(int));
+    FREED(int, scratch) = malloc(8 * squares * sizeof(int));
     l->corners = malloc(4 * squares * sizeof(int));
     l->rest = malloc(8 * squares * sizeof(float));
     l->triangles = malloc(6 * squares * sizeof(int32_t));
@@ -102,7 +102,6 @@ bool Lattice_Make(Lattice* l, const LatticeDef* def)
         JoinSquares(l, def, scratch);
         NumberVertices(l, scratch, scratch + 4 * squares);
     }
-    free(scratch);
     return ok;
 }
 

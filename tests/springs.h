@@ -4,6 +4,8 @@
 #ifndef KIRI_TEST_SPRINGS_H
 #define KIRI_TEST_SPRINGS_H
 
+#include "scoped.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 

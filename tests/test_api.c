@@ -349,7 +349,7 @@ TEST(SheetDefFloats)
     float points[8];
     memcpy(points, def.framePoints, sizeof(points));
     def.framePoints = points;
-    Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
+    SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
     kiriMaterial* m = &def.material;
     const struct {
         float* first;
@@ -386,7 +386,6 @@ TEST(SheetDefFloats)
     points[0] = points[2] + 0.01f; /* two frames in one cell */
     points[1] = points[3];
     REFUSED_DEF(KIRI_ERROR_ARGUMENT);
-    Rectangle_Free(&r);
     Host_Stop(host);
 }
 
@@ -395,7 +394,7 @@ TEST(SheetDefInts)
     Fixture f;
     Host* host = Setup(&f);
     kiriSheetDef def = Host_SmallDef();
-    Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
+    SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
     const struct {
         int32_t* field;
         int32_t values[4];
@@ -428,7 +427,6 @@ TEST(SheetDefInts)
     REFUSED_DEF(KIRI_ERROR_DEF);
     memset(&def, 0, sizeof(def));
     REFUSED_DEF(KIRI_ERROR_DEF);
-    Rectangle_Free(&r);
     Host_Stop(host);
 }
 

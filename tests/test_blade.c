@@ -616,7 +616,7 @@ TEST(FallingSheets)
 {
     for (int32_t k = 0; k < 120; ++k) {
         kiriWorldDef worldDef;
-        kiriWorld* world;
+        SCOPED_WORLD(world) = NULL;
         kiriSheet sheet;
         kiriBlade blade;
         kiriCounts counts;
@@ -638,6 +638,5 @@ TEST(FallingSheets)
         OK(kiriWorld_Tick(world, 1.0f / 60.0f, 1));
         OK(kiriSheet_GetCounts(world, sheet, &counts));
         assert_int_equal(counts.pieces, 2);
-        kiriDestroyWorld(world);
     }
 }

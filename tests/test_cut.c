@@ -9,7 +9,7 @@ enum { MOST_LINES = 4, MOST_POINTS = 8 };
 static kiriResult AddShape(Host* host, kiriSheetDef* def, int32_t columns, int32_t rows, const char* shape,
                            kiriSheet* sheet)
 {
-    float* positions = malloc(2 * sizeof(float) * (size_t)((columns + 1) * (rows + 1)));
+    FREED(float, positions) = malloc(2 * sizeof(float) * (size_t)((columns + 1) * (rows + 1)));
     int32_t *indices = malloc(6 * sizeof(int32_t) * (size_t)(columns * rows)), count = 0;
     for (int32_t v = 0; v < (columns + 1) * (rows + 1); ++v) {
         positions[2 * v] = (float)(v % (columns + 1));
@@ -28,7 +28,6 @@ static kiriResult AddShape(Host* host, kiriSheetDef* def, int32_t columns, int32
     def->indices = indices;
     def->triangleCount = count / 3;
     kiriResult result = kiriCreateSheet(host->world, def, sheet);
-    free(positions);
     free(indices);
     return result;
 }
@@ -336,7 +335,7 @@ static double DistanceToLips(const kiriMesh* mesh, const Edge* lips, int32_t cou
 static void CheckFollowed(const Host* host, kiriSheet sheet, const float* points, int32_t count, double size, double snap)
 {
     kiriMesh mesh = Host_Mesh(host, sheet);
-    Edge* edges = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
+    FREED(Edge, edges) = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
     int32_t lips = FindLips(&mesh, edges);
     for (int32_t i = 0; i < 16 * (count - 1); ++i) {
         const float *a = &points[2 * (i / 16)], *b = a + 2;
@@ -345,7 +344,6 @@ static void CheckFollowed(const Host* host, kiriSheet sheet, const float* points
             assert_true(DistanceToLips(&mesh, edges, lips, u, v) <= 5.0 * snap + 1e-6 * size);
         }
     }
-    free(edges);
 }
 
 /* A lip, or an edge of the outline. */
@@ -363,7 +361,7 @@ static int CompareLips(const void* a, const void* b)
 static void CheckLipsMeet(const Host* host, kiriSheet sheet, float size)
 {
     kiriMesh mesh = Host_Mesh(host, sheet);
-    Edge* edges = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
+    FREED(Edge, edges) = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
     int32_t count = FindLips(&mesh, edges);
     Lip* lips = calloc((size_t)count, sizeof(Lip));
     for (int32_t i = 0; i < count; ++i) {
@@ -385,7 +383,6 @@ static void CheckLipsMeet(const Host* host, kiriSheet sheet, float size)
         assert_true(isOutline != lips[i].hasPartner);
     }
     free(lips);
-    free(edges);
 }
 
 /* A coordinate near the last one; at times on a line of the mesh. */
@@ -437,7 +434,7 @@ TEST(DoesNotDrift)
     OK(AddShape(&host, &def, 256, 2, NULL, &sheet));
     CutLine(&host, sheet, line, 2);
     kiriMesh mesh = Host_Mesh(&host, sheet);
-    Edge* edges = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
+    FREED(Edge, edges) = malloc(3 * sizeof(Edge) * (size_t)mesh.triangleCount);
     int32_t lips = FindLips(&mesh, edges), inside = 0;
     for (int32_t i = 0; i < lips; ++i) {
         const float* p = &mesh.restPositions[2 * edges[i].low];
@@ -446,7 +443,6 @@ TEST(DoesNotDrift)
         inside += isInside;
     }
     assert_true(inside > 500);
-    free(edges);
 }
 
 /* Writes a spiral, or a line that strays, within `radius` of a place. */

@@ -82,7 +82,7 @@ static double GetDiagonal(kiriWorld* world, kiriSheet sheet)
 static bool TryFall(const Fall* fall)
 {
     kiriWorldDef def;
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriDefaultWorldDef(&def);
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
     AddObstacle(world, KIRI_OBSTACLE_PLANE, 0.0f);
@@ -102,7 +102,6 @@ static bool TryFall(const Fall* fall)
         printf("%d frames, tilt %.2f, obstacle %d: %d ticks given up, energy %.3g of the first, %.2f times as long\n",
                fall->frames, (double)fall->tilt, fall->obstacle, diverged, most / first, longest / length);
     }
-    kiriDestroyWorld(world);
     return fine;
 }
 

@@ -524,7 +524,7 @@ static void CheckTwin(Host* host, bool isSnapshot)
     START_HOST(twin);
     OK(kiriWorld_FinishCuts(host->world));
     OK(isSnapshot ? kiriWorld_Snapshot(host->world, NULL, 0, &size) : kiriWorld_Save(host->world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
+    FREED(void, bytes) = malloc((size_t)size);
     OK(isSnapshot ? kiriWorld_Snapshot(host->world, bytes, size, &written)
                   : kiriWorld_Save(host->world, bytes, size, &written));
     OK(isSnapshot ? kiriWorld_Restore(twin.world, bytes, size) : kiriWorld_Load(twin.world, bytes, size));
@@ -538,7 +538,6 @@ static void CheckTwin(Host* host, bool isSnapshot)
         assert_true(Host_Hash(host) == Host_Hash(&twin));
         assert_true(Layout_HashAll(host->world) == Layout_HashAll(twin.world));
     }
-    free(bytes);
 }
 
 static void CutBothWays(uint32_t seed)

@@ -38,7 +38,7 @@ TEST(ScriptKeepsEvents)
     Script_WriteEnd(file, 100);
     assert_int_equal(fclose(file), 0);
 
-    Script script;
+    SCOPED(Script, script, Script_Free);
     assert_true(Script_Read(&script, filePath));
     assert_string_equal(script.game, "curtain");
     assert_int_equal(script.level, 4);
@@ -50,14 +50,13 @@ TEST(ScriptKeepsEvents)
         assert_memory_equal(event, &events[i], sizeof events[i]);
     }
     assert_null(Script_Take(&script, 1000));
-    Script_Free(&script);
 }
 
 TEST(ScriptRefusesNonsense)
 {
     static const char* const texts[] = { "3 jump 0 1\n", "down 0 1 2 3\n", "3 down 0 1 2\n", "3 keydown enter\n",
                                          "5 move 0 1 2\n4 move 0 1 2\n" };
-    Script script;
+    SCOPED(Script, script, Script_Free);
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         WriteText(texts[i]);
         assert_false(Script_Read(&script, filePath));
@@ -66,7 +65,6 @@ TEST(ScriptRefusesNonsense)
     assert_true(Script_Read(&script, filePath));
     assert_int_equal(script.count, 1);
     assert_int_equal(script.end, 4);
-    Script_Free(&script);
 }
 
 /* ---- Camera and sounds ------------------------------------------------------------------------------------------ */
@@ -225,7 +223,7 @@ TEST(CallsAreRecorded)
     fclose(file);
 
     kiriWorldDef def;
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriReplay replay = { 0 };
     kiriDefaultWorldDef(&def);
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
@@ -235,7 +233,6 @@ TEST(CallsAreRecorded)
     }
     assert_int_equal(result, KIRI_OK);
     assert_int_equal(replay.ticks, 30);
-    kiriDestroyWorld(world);
 }
 
 static uint64_t HashOf(const Play* play)

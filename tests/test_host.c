@@ -897,7 +897,7 @@ static int CompareEdges(const void* a, const void* b)
 static void CheckClosed(const kiriSolid* solid, int32_t seen)
 {
     int32_t count = 3 * solid->triangleCount;
-    int64_t* edges = malloc(2 * sizeof(int64_t) * (size_t)count);
+    FREED(int64_t, edges) = malloc(2 * sizeof(int64_t) * (size_t)count);
     for (int32_t n = 0; n < count; ++n) {
         int32_t next = n % 3 == 2 ? n - 2 : n + 1;
         edges[2 * n] = Welded(solid, seen, solid->indices[n]);
@@ -909,7 +909,6 @@ static void CheckClosed(const kiriSolid* solid, int32_t seen)
         assert_true(n == 0 || CompareEdges(&edges[2 * n - 2], &edges[2 * n]) != 0);
         assert_non_null(bsearch(back, edges, (size_t)count, 2 * sizeof(int64_t), CompareEdges));
     }
-    free(edges);
 }
 
 static double VolumeOf(const kiriSolid* solid)

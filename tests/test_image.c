@@ -25,7 +25,7 @@ static void Draw(Image* image, int frame)
 
 static void WriteFilm(void)
 {
-    Image image;
+    SCOPED(Image, image, Image_Free);
     Apng apng;
     assert_true(Image_Create(&image, WIDTH, HEIGHT));
     assert_true(Apng_Open(&apng, filePath, WIDTH, HEIGHT, FRAMES));
@@ -34,7 +34,6 @@ static void WriteFilm(void)
         assert_true(Apng_Add(&apng, &image, DELAY + k));
     }
     assert_true(Apng_Close(&apng));
-    Image_Free(&image);
 }
 
 static size_t ReadFile(uint8_t* bytes)
@@ -127,7 +126,7 @@ TEST(Chunks)
 TEST(FirstFrame)
 {
     static uint8_t seen[BYTES];
-    Image drawn;
+    SCOPED(Image, drawn, Image_Free);
     png_image png;
     WriteFilm();
     memset(&png, 0, sizeof png);
@@ -140,7 +139,6 @@ TEST(FirstFrame)
     assert_true(Image_Create(&drawn, WIDTH, HEIGHT));
     Draw(&drawn, 0);
     assert_memory_equal(seen, drawn.rgb, BYTES);
-    Image_Free(&drawn);
 }
 
 static uint8_t* PutChunk(uint8_t* to, const char* type, const uint8_t* data, uint32_t size)
@@ -213,7 +211,7 @@ TEST(AllFrames)
 
 TEST(Refusals)
 {
-    Image image;
+    SCOPED(Image, image, Image_Free);
     Apng apng;
     assert_true(Image_Create(&image, WIDTH, HEIGHT));
     assert_false(Apng_Open(&apng, "build/no such folder/film.png", WIDTH, HEIGHT, 1));
@@ -225,7 +223,6 @@ TEST(Refusals)
     assert_true(Apng_Open(&apng, filePath, WIDTH, HEIGHT, 2));
     assert_true(Apng_Add(&apng, &image, DELAY));
     assert_false(Apng_Close(&apng)); /* one is missing */
-    Image_Free(&image);
 }
 
 static void RemoveFile(void)

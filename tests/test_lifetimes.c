@@ -266,13 +266,12 @@ enum { BETWEENS = sizeof(betweens) / sizeof(betweens[0]) };
 TEST(EachCall)
 {
     for (int k = 0; k < BETWEENS; ++k) {
-        Desk desk;
+        SCOPED(Desk, desk, Desk_Stop);
         Desk_Start(&desk);
         Loan loan = LendAll(&desk.host, desk.sheet);
         betweens[k].call(&desk, 3);
         CheckLoan(&loan, betweens[k].name);
         EndLoan(&loan);
-        Desk_Stop(&desk);
     }
 }
 
@@ -282,7 +281,7 @@ TEST(CallsAtRandom)
     enum { RUNS = 40, STEPS = 12 };
     for (uint32_t run = 1; run <= RUNS; ++run) {
         uint32_t seed = 104729u * run;
-        Desk desk;
+        SCOPED(Desk, desk, Desk_Stop);
         Loan loans[STEPS];
         Desk_Start(&desk);
         for (int step = 0; step < STEPS; ++step) {
@@ -297,14 +296,13 @@ TEST(CallsAtRandom)
             EndLoan(&loans[step]);
         }
         assert_true(kiriWorld_Tick(desk.host.world, 1.0f / 60.0f, 1) >= 0);
-        Desk_Stop(&desk);
     }
 }
 
 /* What was lent is given back: a tick frees it. */
 TEST(TickFreesWhatWasLent)
 {
-    Desk desk;
+    SCOPED(Desk, desk, Desk_Stop);
     Desk_Start(&desk);
     OK(kiriDestroySheet(desk.host.world, desk.sheet));
     int64_t lent = desk.host.live;
@@ -318,5 +316,4 @@ TEST(TickFreesWhatWasLent)
         OK(kiriWorld_Tick(desk.host.world, 1.0f / 60.0f, 1));
         assert_int_equal(desk.host.live, before);
     }
-    Desk_Stop(&desk);
 }

@@ -11,7 +11,7 @@ typedef struct Links {
 
 static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
 {
-    kiriSiteMove* moves = malloc(sizeof(kiriSiteMove) * (size_t)(count + 1));
+    FREED(kiriSiteMove, moves) = malloc(sizeof(kiriSiteMove) * (size_t)(count + 1));
     kiriQuota quota = { INT64_MAX, 0, 0, false };
     for (int32_t i = 0; i < count; ++i) {
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
@@ -26,7 +26,6 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
     assert_int_equal(l->made.links.count, 0);
     assert_int_equal(l->made.changed, l->made.next.count);
     kiriLinks_Commit(&l->made);
-    free(moves);
 }
 
 static int32_t OwnerOf(const Links* l, int32_t cell)
@@ -450,7 +449,7 @@ static kiriWay WayOf(Plain* p, kiriVec2 from, kiriVec2 to)
 
 TEST(SlitsStopTheSight)
 {
-    Plain p;
+    SCOPED(Plain, p, Plain_Stop);
     kiriSightHit hit;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
     Scene_Slit(&p.scene, 0.5, 0.0, 0.5, 0.8);
@@ -470,7 +469,6 @@ TEST(SlitsStopTheSight)
     /* A vertex of the slit stops the sight; its end does not. */
     assert_false(kiriSight_IsClear(&p.sight, At(0.1, 0.4), At(0.9, 0.4)));
     assert_true(kiriSight_IsClear(&p.sight, At(0.1, 0.8), At(0.9, 0.8)));
-    Plain_Stop(&p);
 }
 
 /* Against all edges of the mesh, one by one. */
@@ -479,7 +477,7 @@ TEST(SightIsThatOfAllEdges)
     uint32_t seed = 9;
     int32_t clear = 0, stopped = 0;
     for (int round = 0; round < 40; ++round) {
-        Plain p;
+        SCOPED(Plain, p, Plain_Stop);
         memset(&p, 0, sizeof(p));
         Scene_InitMesh(&p.scene, 1.0, 1.0, 9, 9, 4 + (int32_t)(Random(&seed) % 30), 0.25, seed);
         Scene_CutAtRandom(&p.scene, 6, 8, &seed);
@@ -507,14 +505,13 @@ TEST(SightIsThatOfAllEdges)
             clear += end == KIRI_SIGHT_CLEAR;
             stopped += end == KIRI_SIGHT_EDGE;
         }
-        Plain_Stop(&p);
     }
     assert_true(clear > 500 && stopped > 500);
 }
 
 TEST(WaysTurnAtSlitEnds)
 {
-    Plain p;
+    SCOPED(Plain, p, Plain_Stop);
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
     Scene_Slit(&p.scene, 0.3, 0.0, 0.3, 0.8);
     Scene_Slit(&p.scene, 0.7, 0.2, 0.7, 1.0);
@@ -534,14 +531,13 @@ TEST(WaysTurnAtSlitEnds)
     way = WayOf(&p, At(0.1, 0.1), At(0.9, 0.9));
     assert_int_equal(way.turnCount, 2);
     AssertNear(way.length, 2.0 * sqrt(0.04 + 0.49) + sqrt(0.16 + 0.36), 1e-7);
-    Plain_Stop(&p);
 }
 
 /* A slit of two legs: its knee is a corner on one side only. From the hollow side no way turns there, and none slips
    through it. */
 TEST(NoWayThroughAKnee)
 {
-    Plain p;
+    SCOPED(Plain, p, Plain_Stop);
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
     Scene_Slit(&p.scene, 0.5, 0.2, 0.5, 0.5);
     Scene_Slit(&p.scene, 0.5, 0.5, 0.8, 0.5);
@@ -557,5 +553,4 @@ TEST(NoWayThroughAKnee)
     assert_int_equal(way.turnCount, 1); /* around it */
     AssertNear(way.turn[0].x, 0.5, 1e-7);
     AssertNear(way.turn[0].y, 0.5, 1e-7);
-    Plain_Stop(&p);
 }

@@ -393,7 +393,7 @@ static Outcome CutLayout(const Layout* layout, int32_t squares)
 {
     kiriSheet sheet;
     kiriCounts counts;
-    kiriWorld* world = CutSheet(layout, squares, &sheet);
+    SCOPED_WORLD(world) = CutSheet(layout, squares, &sheet);
     assert_int_equal(kiriSheet_GetCounts(world, sheet, &counts), KIRI_OK);
     Outcome outcome = { counts.pieces, 1.0 };
     for (int32_t i = 0; i < counts.pieces; ++i) {
@@ -401,7 +401,6 @@ static Outcome CutLayout(const Layout* layout, int32_t squares)
         assert_int_equal(kiriSheet_GetPiece(world, sheet, i, &piece), KIRI_OK);
         outcome.least = fmin(outcome.least, piece.area);
     }
-    kiriDestroyWorld(world);
     return outcome;
 }
 

@@ -271,7 +271,7 @@ TEST(MemoryIsKept)
     static const float line[4] = { -0.2f, 0.45f, 1.2f, 0.55f };
     for (int k = 0; k < CHOICES; ++k) {
         kiriSheetDef def = DefOf(&choices[k]);
-        Rectangle rectangle = Rectangle_Make(&def, 1.0f, 1.0f, 3, 3);
+        SCOPED_AS(Rectangle, rectangle, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 3, 3);
         kiriSheet sheet = 0;
         kiriResult result = KIRI_ERROR_MEMORY;
         START_HOST(host);
@@ -296,7 +296,6 @@ TEST(MemoryIsKept)
         }
         host.failAt = -1;
         assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-        Rectangle_Free(&rectangle);
     }
 }
 

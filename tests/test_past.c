@@ -117,7 +117,7 @@ static void CheckVertex(Past* past, Copy* copy, const kiriMesh* mesh, int32_t v,
 static void CheckSheet(Past* past, kiriSheet sheet)
 {
     kiriMesh mesh = Host_Mesh(&past->host, sheet);
-    int32_t* was = malloc(sizeof(int32_t) * (size_t)mesh.vertexCount);
+    FREED(int32_t, was) = malloc(sizeof(int32_t) * (size_t)mesh.vertexCount);
     uint8_t* isUsed = MarkUsed(&mesh);
     kiriSheet from = 0;
     OK(kiriSheet_CopyPrevious(past->host.world, sheet, 0, mesh.vertexCount, was, &from));
@@ -140,7 +140,6 @@ static void CheckSheet(Past* past, kiriSheet sheet)
     }
     free(sorted.rest);
     free(isUsed);
-    free(was);
 }
 
 /* Checks all sheets, at any time between ticks. Every vertex of a copy is found again, unless it was destroyed. */

@@ -288,7 +288,7 @@ TEST(NoMoreThanTheHostGave)
         kiriSheet sheet;
         START_HOST(host);
         kiriSheetDef def = DefaultSheet();
-        Rectangle shape = MakeShape(&def, &seed);
+        SCOPED_AS(Rectangle, shape, Rectangle_Free) = MakeShape(&def, &seed);
         def.gridResolution = 4 + (int32_t)(Random(&seed) % 60);
         def.frameCount = 1 + (int32_t)(Random(&seed) % (run % 3 == 0 ? 4 : 90));
         def.rigidArea = run % 4 == 0 ? (float)RandomBetween(&seed, 1e-4, 0.1) : 0.0f;
@@ -303,7 +303,6 @@ TEST(NoMoreThanTheHostGave)
             parts += counts.pieces > 1;
             more += Host_Counts(&host, sheet).frames > counts.frames;
         }
-        Rectangle_Free(&shape);
     }
     assert_true(made > 120 && parts > 20 && more > 10);
 }

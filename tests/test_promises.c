@@ -306,7 +306,7 @@ TEST(IdsComeOnce)
     int32_t all = 0;
     START_HOST(host);
     kiriSheetDef def = TinyDef();
-    Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 1, 1);
+    SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 1, 1);
     kiriPinDef pin;
     kiriDefaultPinDef(&pin);
     kiriSheet sheet;
@@ -329,7 +329,6 @@ TEST(IdsComeOnce)
         ++all;
     }
     CheckUnique(ids, all);
-    Rectangle_Free(&mesh);
 }
 
 /* A pool that has no slot left: as if all that the header allows were in use. */
@@ -399,7 +398,7 @@ TEST(IdsRunOut)
         Host* host = &office.host;
         Host_Start(host);
         office.def = Host_SmallDef();
-        Rectangle mesh = Rectangle_Make(&office.def, 1.0f, 1.0f, 3, 3);
+        SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&office.def, 1.0f, 1.0f, 3, 3);
         kiriDefaultPinDef(&office.pin);
         OK(kiriCreateSheet(host->world, &office.def, &office.sheet));
         GiveDisc(host, office.sheet, 0.5f, 0.5f, 0.2f);
@@ -419,7 +418,6 @@ TEST(IdsRunOut)
         assert_true(way == TICK || Look_World(host->world) == look);
         OK(Ask(&office, way));
         OK(kiriWorld_Tick(host->world, 0.01f, 1));
-        Rectangle_Free(&mesh);
         Host_Stop(host);
     }
 }

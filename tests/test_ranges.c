@@ -307,7 +307,7 @@ static void TryField(int32_t part, int32_t index, bool isStrip)
     for (int32_t k = 0; k < all; ++k) {
         double value = k < good ? field->good[k] : field->bad[k - good];
         Play_Init(&play, &host);
-        Rectangle mesh = MeshFor(&play.sheet, isStrip);
+        SCOPED_AS(Rectangle, mesh, Rectangle_Free) = MeshFor(&play.sheet, isStrip);
         Set(parts[part].def, field, value);
         Name(isStrip ? "strip:" : "square:");
         NameMore(field->name, value);
@@ -316,7 +316,6 @@ static void TryField(int32_t part, int32_t index, bool isStrip)
         if (result != (isRight ? KIRI_OK : KIRI_ERROR_ARGUMENT)) {
             fail_msg("%s gives %s", trial, kiriGetResultName(result));
         }
-        Rectangle_Free(&mesh);
     }
 }
 
@@ -376,7 +375,7 @@ TEST(AtRandom)
         Part parts[PARTS];
         Play_Init(&play, &host);
         ListParts(&play, parts);
-        Rectangle mesh = MeshFor(&play.sheet, run % 3 == 0);
+        SCOPED_AS(Rectangle, mesh, Rectangle_Free) = MeshFor(&play.sheet, run % 3 == 0);
         Name("at random:");
         SetAtRandom(parts, &seed);
         play.pin.restPoint[1] = 0.0f;
@@ -386,7 +385,6 @@ TEST(AtRandom)
             fail_msg("%s gives %s", trial, kiriGetResultName(result));
         }
         accepted += result == KIRI_OK;
-        Rectangle_Free(&mesh);
     }
     print_message("%d of %d combinations accepted\n", accepted, runs);
     assert_true(accepted > runs / 2);
@@ -409,7 +407,7 @@ TEST(MoreFramesThanCells)
         Play play;
         Host host;
         Play_Init(&play, &host);
-        Rectangle mesh = MeshFor(&play.sheet, cases[i].isStrip);
+        SCOPED_AS(Rectangle, mesh, Rectangle_Free) = MeshFor(&play.sheet, cases[i].isStrip);
         play.sheet.gridResolution = cases[i].grid;
         play.sheet.frameCount = cases[i].frames;
         play.sheet.maxFrames = cases[i].most;
@@ -418,7 +416,6 @@ TEST(MoreFramesThanCells)
         NameMore("case", (double)i);
         bool isCarried = GridCarriesFrames(&play.sheet, cases[i].isStrip);
         assert_int_equal(Play_Run(&play, &host), isCarried ? KIRI_OK : KIRI_ERROR_ARGUMENT);
-        Rectangle_Free(&mesh);
     }
 }
 
@@ -455,7 +452,7 @@ TEST(TheMost)
         Play play;
         Host host;
         Play_Init(&play, &host);
-        Rectangle mesh = MeshFor(&play.sheet, what == 0);
+        SCOPED_AS(Rectangle, mesh, Rectangle_Free) = MeshFor(&play.sheet, what == 0);
         play.sheet.gridResolution = what == 0 ? 4096 : 64;
         play.sheet.frameCount = what == 1 ? 64 * 64 / 2 : 4;
         play.sheet.collisionPoints = what == 2 ? 1048576 : 0;
@@ -464,7 +461,6 @@ TEST(TheMost)
         Name("the most:");
         NameMore("case", (double)what);
         OK(Play_Run(&play, &host));
-        Rectangle_Free(&mesh);
     }
 }
 

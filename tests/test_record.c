@@ -238,13 +238,12 @@ static void AddFolded(kiriWorld* world)
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet;
     int32_t index;
-    Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
+    SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
     def.position[0] = 5.0f;
     OK(kiriCreateFoldedSheet(world, &def, folds, 2, &sheet));
     OK(kiriSheet_SetFold(world, sheet, 0, 2e-3f, -0.5f));
     OK(kiriSheet_AddFold(world, sheet, &folds[1], &index));
     assert_int_equal(index, 2);
-    Rectangle_Free(&mesh);
 }
 
 static void Change(Tape* tape, kiriSheet sheet)
@@ -490,7 +489,7 @@ TEST(ReadOnlyArguments)
     Tape_Start(&tape);
     kiriWorld* world = tape.host.world;
     kiriSheetDef def = Host_SmallDef();
-    Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
+    SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
     def.restPositions = Freeze(mesh.positions, sizeof(float) * 50);
     def.indices = Freeze(mesh.indices, sizeof(int32_t) * 96);
     kiriDefaultObstacleDef(&obstacleDef);
@@ -501,7 +500,6 @@ TEST(ReadOnlyArguments)
     kiriFrame frame = FrameAt(&tape, sheet, 0.5f, 0.5f);
     assert_int_equal(kiriWorld_DestroyPieces(world, Freeze(&frame, sizeof frame), 1), KIRI_ERROR_STATE);
     OK(kiriWorld_Note(world, Freeze("hello", 5), 5));
-    Rectangle_Free(&mesh);
 }
 
 /* ---- What it costs ----------------------------------------------------------------------------------------------- */

@@ -314,7 +314,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
 
 TEST(NothingSeenJumps)
 {
-    Seen* seen = malloc(sizeof(Seen));
+    FREED(Seen, seen) = malloc(sizeof(Seen));
     kiriSheetDef def = DefaultSheet();
     def.frameCount = 8;
     def.collisionPoints = 40;
@@ -336,7 +336,6 @@ TEST(NothingSeenJumps)
     printf("without: %.1e m; as in the paper: %.1e m, momentum by %.1e\n", fitted, seen->jump, seen->probe.momentum);
     assert_true(seen->longest == 0.0 && seen->probe.momentum > 1e-4); /* the probe sees what it should */
     Host_Stop(&seen->probe.host);
-    free(seen);
 }
 
 /* A commit in the first tick, and what fades after it. */

@@ -438,11 +438,10 @@ static void RestoreIn(Host* host, const kiriWorld* world)
 {
     int64_t size;
     OK(kiriWorld_Snapshot(world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
+    FREED(void, bytes) = malloc((size_t)size);
     assert_non_null(bytes);
     OK(kiriWorld_Snapshot(world, bytes, size, &size));
     OK(kiriWorld_Restore(host->world, bytes, size));
-    free(bytes);
 }
 
 /* Restores what a snapshot has then, and goes on with both worlds. False where nothing was refused. */

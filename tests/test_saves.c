@@ -344,7 +344,7 @@ TEST(Misuse)
     Bytes bytes = Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     int64_t size = 0;
-    uint8_t* few = malloc((size_t)bytes.size - 1);
+    FREED(uint8_t, few) = malloc((size_t)bytes.size - 1);
     assert_int_equal(kiriWorld_Save(host.world, NULL, 0, NULL), KIRI_ERROR_ARGUMENT);
     for (int64_t capacity = bytes.size - 1; capacity >= 0; capacity = capacity / 2 - (capacity == 0)) {
         memset(few, 0x77, (size_t)bytes.size - 1);
@@ -360,7 +360,6 @@ TEST(Misuse)
     assert_int_equal(kiriWorld_Save(NULL, NULL, 0, &size), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_Load(NULL, bytes.data, bytes.size), KIRI_ERROR_ARGUMENT);
     assert_int_equal(Host_Hash(&host), hash);
-    free(few);
     free(bytes.data);
 }
 

@@ -27,7 +27,7 @@ static void RecordScene(const char* name, int32_t ticks, Scene* scene)
 static void CheckReplay(const char* name, int32_t ticks)
 {
     Scene recorded, scene;
-    SceneReplay replay;
+    SCOPED(SceneReplay, replay, SceneReplay_Free);
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     RecordScene(name, ticks, &recorded);
@@ -49,7 +49,6 @@ static void CheckReplay(const char* name, int32_t ticks)
     assert_int_equal(Scene_GetBlades(&scene, blades[1], SCENE_MAX_STROKES), count);
     assert_memory_equal(blades[1], blades[0], sizeof blades[0][0] * (size_t)count);
     Scene_Stop(&scene);
-    SceneReplay_Free(&replay);
 }
 
 TEST(Replay)
@@ -101,7 +100,7 @@ TEST(WorldsOfHosts)
     assert_true(SceneRecord_Close(file, filePath));
     for (int32_t pass = 0; pass < 2; pass++) {
         SCOPED(Scene, scene, Scene_Stop);
-        SceneReplay replay;
+        SCOPED(SceneReplay, replay, SceneReplay_Free);
         if (pass == 1) {
             file = fopen(filePath, "wb");
             assert_int_equal(fwrite(bytes, 1, (size_t)size, file), size);
@@ -114,7 +113,6 @@ TEST(WorldsOfHosts)
             assert_int_equal(SceneReplay_Tick(&replay, &scene), KIRI_PENDING);
         }
         CheckOpened(&replay, &scene, hashes[1]);
-        SceneReplay_Free(&replay);
     }
     remove(filePath);
 }

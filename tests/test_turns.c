@@ -219,7 +219,7 @@ TEST(SaveWhileWaiting)
         assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
     }
     OK(kiriWorld_Save(host.world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
+    FREED(void, bytes) = malloc((size_t)size);
     OK(kiriWorld_Save(host.world, bytes, size, &size));
     Host_Start(&other);
     OK(kiriWorld_Load(other.world, bytes, size));
@@ -228,7 +228,6 @@ TEST(SaveWhileWaiting)
         assert_int_equal(Host_Tick(&host, dt, 2), KIRI_PENDING);
         assert_int_equal(Host_Tick(&other, dt, 2), KIRI_PENDING);
     }
-    free(bytes);
     Host_Stop(&host);
     Host_Stop(&other);
 }

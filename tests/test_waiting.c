@@ -89,11 +89,10 @@ static void DropCaches(Host* host)
 {
     int64_t size, again;
     OK(kiriWorld_Snapshot(host->world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
+    FREED(void, bytes) = malloc((size_t)size);
     OK(kiriWorld_Snapshot(host->world, bytes, size, &again));
     assert_int_equal(size, again);
     OK(kiriWorld_Restore(host->world, bytes, size));
-    free(bytes);
 }
 
 /* One world goes on, the other one is loaded before each tick, or before some. */

@@ -326,7 +326,7 @@ TEST(Slices)
 /* The triangles of a rectangle that `keep` says; vertices that none of them uses are left out. */
 static kiriSheet AddParts(Host* host, kiriSheetDef* def, bool (*keep)(double u, double v), double* area)
 {
-    Rectangle r = Rectangle_Make(def, 1.0f, 1.0f, 8, 8);
+    SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(def, 1.0f, 1.0f, 8, 8);
     int32_t map[81], vertices = 0, triangles = 0;
     kiriSheet sheet = 0;
     memset(map, -1, sizeof(map));
@@ -354,7 +354,6 @@ static kiriSheet AddParts(Host* host, kiriSheetDef* def, bool (*keep)(double u, 
     def->triangleCount = triangles;
     *area = triangles / 128.0;
     OK(kiriCreateSheet(host->world, def, &sheet));
-    Rectangle_Free(&r);
     return sheet;
 }
 

@@ -67,9 +67,9 @@ static void Print(const Hem* hem)
 static void PrintKiri(const kiriMaterial* material, int32_t frames)
 {
     LatticeDef latticeDef = { 2.0 * RADIUS, 2.0 * RADIUS, 2.0 * RADIUS / SQUARES, RADIUS, HOLE, NULL, 0, 0 };
-    Lattice l;
+    SCOPED(Lattice, l, Lattice_Free);
     kiriWorldDef worldDef;
-    kiriWorld* world;
+    SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriPin pin;
     kiriSheetDef def = DefaultSheet();
@@ -109,15 +109,13 @@ static void PrintKiri(const kiriMaterial* material, int32_t frames)
     }
     Print(&hem);
     printf(" %.1f ms", 1e3 * seconds / TICKS);
-    kiriDestroyWorld(world);
-    Lattice_Free(&l);
 }
 
 static void PrintSprings(const kiriMaterial* m, int squares, int substeps)
 {
     static bool fixed[32768];
     LatticeDef def = { 2.0 * RADIUS, 2.0 * RADIUS, 2.0 * RADIUS / squares, RADIUS, 0.0, NULL, 0, 0 };
-    Lattice l;
+    SCOPED(Lattice, l, Lattice_Free);
     double h = (double)m->thickness, stretch = (double)m->youngsModulus * h, nu = (double)m->poissonsRatio;
     SpringMaterial material = { stretch, stretch * h * h / (12.0 * (1.0 - nu * nu)), 1.0, (double)m->density * h, 2.0 };
     Require(Lattice_Make(&l, &def) && l.vertexCount <= 32768, "no memory");
@@ -152,7 +150,6 @@ static void PrintSprings(const kiriMaterial* m, int squares, int substeps)
     }
     Print(&hem);
     Springs_Destroy(springs);
-    Lattice_Free(&l);
 }
 
 void Drape_Print(void)

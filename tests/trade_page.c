@@ -209,7 +209,7 @@ static double RunSprings(const Scene* scene, const kiriMaterial* m, const Result
 {
     static bool fixed[MAX_VERTICES];
     LatticeDef def = DefOf(scene, scene->length / setting->size);
-    Lattice l;
+    SCOPED(Lattice, l, Lattice_Free);
     Samples samples;
     double h = (double)m->thickness, mass = (double)m->density * h, stretch = (double)m->youngsModulus * h;
     SpringMaterial material = { fmin(stretch, mass * GRAVITY * scene->length / STRAIN), stretch * h * h / 12.0, 1.0,
@@ -234,18 +234,16 @@ static double RunSprings(const Scene* scene, const kiriMaterial* m, const Result
         }
     }
     Springs_Destroy(springs);
-    Lattice_Free(&l);
     return 1e3 * seconds / TICKS;
 }
 
 static Samples SamplesOf(const Scene* scene)
 {
     LatticeDef def = DefOf(scene, scene->length / 40.0);
-    Lattice l;
+    SCOPED(Lattice, l, Lattice_Free);
     Samples samples;
     Require(Lattice_Make(&l, &def), "no memory");
     FindSamples(scene, &l, &samples);
-    Lattice_Free(&l);
     return samples;
 }
 
