@@ -353,18 +353,19 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 /* A leg pulls with toughness h / 2. */
 TEST(TrouserPullsWithItsForce)
 {
-    static const double youngs[] = { 2e7, 2e9 };
+    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 4.0 };
     static const int32_t frames[] = { 16, 32, 64 };
-    for (int e = 0; e < 2; ++e) {
+    for (int e = 0; e < 3; ++e) {
         for (int k = 0; k < 3; ++k) {
             START_HOST(host);
+            int32_t ticks = e == 2 ? 100 : 200;
             Trouser t;
             double tip[2], first = 0.0, sum = 0.0, most = 0.0;
             int32_t count = 0;
             Trouser_Start(&t, host.world, youngs[e], frames[k], 1e4);
-            for (int32_t n = 0; n < TURNS + 200; ++n) {
-                assert_true(Trouser_Tick(&t, host.world, 0.01) >= 0);
-                if (n > TURNS + 50) {
+            for (int32_t n = 0; n < TURNS + ticks; ++n) {
+                assert_true(Trouser_Tick(&t, host.world, speeds[e]) >= 0);
+                if (n > TURNS + ticks / 4) {
                     FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
                     first = first == 0.0 ? tip[0] : first;
                     sum += t.force;
@@ -373,7 +374,7 @@ TEST(TrouserPullsWithItsForce)
                 }
             }
             Host_Validate(&host);
-            assert_true(sum / count > 0.1 && sum / count < 0.75 && most < 2.0);
+            assert_true(sum / count > 0.05 && sum / count < 1.0 && most < limits[e]);
             assert_true(tip[0] - first > 0.01);
         }
     }

@@ -279,14 +279,16 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
 #define PAIR_LAG 0.4    /* spacings behind the tip, at most */
 #define PAIR_RANGE 1.5  /* spacings from the tip within which sites are taken */
 
-/* Returns the nearest site of a piece on one side of the tip that may move, or KIRI_NONE. */
-static int32_t SiteBeside(const kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece, double side, double range)
+/* Returns the site nearest to a place on one side of the tip that may move, or KIRI_NONE. Sites close together jam. */
+static int32_t SiteBeside(const kiriSheetData* sheet, const kiriSlitEnd* end, kiriVec2 at, int32_t piece, double side,
+                          double range)
 {
     int32_t nearest = KIRI_NONE;
     KIRI_EACH_INDEX(f, sheet->frames) {
-        kiriVec2 off = kiriVec2_Sub(sheet->update->placing.sites.data[f].at, end->at);
-        double d = kiriVec2_Length(off);
-        bool isThere = sheet->layout.framePiece.data[f] == piece && side * kiriVec2_Cross(end->along, off) > 0.0;
+        kiriVec2 site = sheet->update->placing.sites.data[f].at;
+        double d = kiriVec2_Distance(site, at);
+        double off = side * kiriVec2_Cross(end->along, kiriVec2_Sub(site, end->at));
+        bool isThere = sheet->layout.framePiece.data[f] == piece && off > 0.0;
         nearest = isThere && d < range && !sheet->frames.data[f].held ? f : nearest;
         range = nearest == f ? d : range;
     }
@@ -315,21 +317,21 @@ static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece
     bool isFar = false, ok = true;
     KIRI_TIMES(k, 2) {
         double side = k == 0 ? 1.0 : -1.0;
-        frames[k] = SiteBeside(sheet, end, piece, side, PAIR_RANGE * spacing);
         pair[k] = kiriSlit_SiteBeside(&sheet->grid, &sheet->mesh, end, side * reach);
+        frames[k] = SiteBeside(sheet, end, pair[k].at, piece, side, PAIR_RANGE * spacing);
         if (frames[k] == KIRI_NONE) {
             return true;
         }
         kiriVec2 way = kiriVec2_Sub(pair[k].at, sheet->update->placing.sites.data[frames[k]].at);
-        isFar = isFar || fabs(kiriVec2_Dot(way, end->along)) > PAIR_LAG * spacing ||
-                fabs(kiriVec2_Cross(way, end->along)) > 0.25 * reach;
+        isFar |= fabs(kiriVec2_Dot(way, end->along)) > PAIR_LAG * spacing ||
+                 fabs(kiriVec2_Cross(way, end->along)) > 0.25 * reach;
     }
     bool isFree = pair[0].cell != pair[1].cell && IsFree(sheet, &pair[0], frames) && IsFree(sheet, &pair[1], frames);
     kiriPlacingWork* placing = &sheet->update->placing;
     KIRI_TIMES_WHILE(ok&& isFar&& isFree, k, 2) {
         bool hasMoved = false;
         KIRI_EACH(const kiriSiteMove, move, placing->moves) {
-            hasMoved = hasMoved || move->frame == frames[k];
+            hasMoved |= move->frame == frames[k];
         }
         ok = hasMoved || RecordMove(sheet, frames[k], placing->sites.data[frames[k]].cell);
         placing->sites.data[frames[k]] = pair[k];

@@ -15,7 +15,7 @@ bool kiriTears_AreGrowing(const kiriSheetData* sheet)
 {
     bool isTearing = false;
     KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
-        isTearing = isTearing || kiriCut_IsTear(cut);
+        isTearing |= kiriCut_IsTear(cut);
     }
     return isTearing;
 }
@@ -361,8 +361,7 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     if (!(release > taken)) {
         return at;
     }
-    double step = PACE * spacing * (1.0 - taken / release);
-    step = kiriMin(step, most);
+    double step = kiriMin(PACE * spacing * (1.0 - taken / release), most);
     *along = AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, 2.0 * opens / release);
     kiriVec2 way = kiriVec2_Scale(step, *along);
     double part = FreePart(sheet, tip, way), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;

@@ -7,7 +7,7 @@
 KIRI_C_BEGIN
 
 /* s: strain offsets fade within this while a sheet tears. Those of moved sites hide the force on the tear. */
-#define KIRI_TEAR_FADE 0.05
+#define KIRI_TEAR_FADE 0.01
 
 /* Returns true if tears may grow in the sheet. */
 static inline bool kiriTears_MayGrow(const kiriSheetData* sheet)

@@ -8,7 +8,6 @@
 #include "../sheet/kiri_tear.h"
 
 #define RESTING 0.5 /* s: a tear that does not go on for this long ends */
-#define PAUSE 1.5   /* ticks: frames that moved with the tip come to rest before it is measured again */
 #define TIPS 8       /* that tear at a time, if the host names no number */
 #define LOOKS 4      /* tips measured in a tick, for each that may tear */
 
@@ -203,7 +202,7 @@ static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt)
             cut = isThere && kiriCut_IsTear(each) && !each->ended ? each : cut;
         }
         int32_t piece = kiriPiece_OfVertex(sheet, tip.vertex);
-        bool isDue = cut != NULL ? cut->waiting == 0 && cut->rests > PAUSE * dt : n < looks;
+        bool isDue = cut != NULL ? cut->waiting == 0 : n < looks;
         if (!isDue || !kiriPiece_IsAwake(&sheet->layout.pieces.data[piece])) {
             continue;
         }
