@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-enum { SHEET_COLUMNS = 4, SHEET_ROWS = 2, SHEET_GAP = 4, LAST_DELAY = 60 };
+enum { SHEET_COLUMNS = 3, SHEET_ROWS = SCENE_MOMENTS / SHEET_COLUMNS, SHEET_GAP = 4, LAST_DELAY = 60 };
 
 static bool MakeFolders(const char* path)
 {

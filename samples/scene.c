@@ -39,7 +39,7 @@ static SceneType SlowType(const SceneType* type, float pace)
     SceneType paced = *type;
     paced.lastCut = type->firstCut + Scene_Slow(type->lastCut - type->firstCut, pace);
     paced.ticks = type->firstCut + Scene_Slow(type->ticks - type->firstCut, pace);
-    for (int32_t i = 0; i < 8; i++) {
+    for (int32_t i = 0; i < SCENE_MOMENTS; i++) {
         int32_t after = type->moments[i] - type->firstCut;
         paced.moments[i] = after > 0 ? type->firstCut + Scene_Slow(after, pace) : type->moments[i];
     }

@@ -41,6 +41,8 @@ typedef struct Stroke {
     kiriCut cut;
 } Stroke;
 
+enum { SCENE_MOMENTS = 6 };
+
 typedef struct Scene Scene;
 
 typedef struct SceneType {
@@ -48,9 +50,9 @@ typedef struct SceneType {
     const char* about;
     float size; /* m: of the sheet's height, and of the picture */
     int32_t ticks, substeps;
-    int32_t firstCut, lastCut; /* ticks from the first move of a blade to the last */
-    bool together;             /* all blades at once; else one after the other */
-    int32_t moments[8];        /* ticks worth a picture, rising */
+    int32_t firstCut, lastCut;      /* ticks from the first move of a blade to the last */
+    bool together;                  /* all blades at once; else one after the other */
+    int32_t moments[SCENE_MOMENTS]; /* ticks worth a picture, rising */
     Camera camera;
     Look look;
     bool pegs; /* pins are pegs in a wall behind the sheet; else knots of threads from above */

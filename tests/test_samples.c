@@ -104,7 +104,7 @@ static void CheckTimes(const Scene* scene)
     for (int32_t k = 1; k < scene->strokeCount; k++) {
         assert_int_equal(scene->strokes[k].firstTick, type->together ? type->firstCut : scene->strokes[k - 1].lastTick);
     }
-    for (int32_t k = 1; k < 8; k++) {
+    for (int32_t k = 1; k < SCENE_MOMENTS; k++) {
         assert_true(type->moments[k] > type->moments[k - 1] && type->moments[k] <= type->ticks);
     }
 }
