@@ -253,6 +253,64 @@ TEST(ClampedStripsAreAsStiffAsTheyShould)
     }
 }
 
+typedef enum Hold { HANGS, PULLED } Hold;
+
+/* Returns the seen elongation of a soft smooth strip that hangs by its upper end, or is pulled at both ends by 2 %, over
+   the elongation of theory. The ends are in clamps or hinges; sites are off rows by up to `jitter` of a spacing. */
+static double ElongationOfStrip(Hold hold, bool isHinged, int32_t count, double jitter, uint32_t seed)
+{
+    enum { COLUMNS = 40, ROWS = 10 };
+    const float length = 0.2f, width = 0.05f, strain = 0.02f;
+    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
+    float points[2 * 16];
+    kiriPin pins[2];
+    START_HOST(host);
+    host.every = 1000;
+    kiriSheetDef def = PaperDef(80, 1.0f);
+    double E = hold == HANGS ? 1000.0 * 9.81 * (double)length / (2.0 * (double)strain) : 1e6;
+    def.material = (kiriMaterial){ (float)E, 0.0f, 1e-3f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.skinning = KIRI_SKINNING_SMOOTH;
+    def.frameCount = def.maxFrames = count;
+    def.framePoints = points;
+    for (int32_t i = 0; i < count; ++i) {
+        points[2 * i] = length * (float)(i + 0.5 + RandomBetween(&seed, -jitter, jitter)) / (float)count;
+        points[2 * i + 1] = 0.5f * width;
+    }
+    OK(kiriWorld_SetGravity(host.world, (float[]){ hold == HANGS ? 9.81f : 0.0f, 0.0f, 0.0f }));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, COLUMNS, ROWS);
+    for (int k = 0; k < (hold == HANGS ? 1 : 2); ++k) {
+        OK(isHinged ? kiriSheet_HingeLine(host.world, sheet, ends + 4 * k, ends + 4 * k + 2, &pins[k])
+                    : kiriSheet_ClampLine(host.world, sheet, ends + 4 * k, ends + 4 * k + 2, &pins[k]));
+    }
+    if (hold == PULLED) {
+        OK(kiriPin_SetTarget(host.world, pins[1], (float[]){ length * (1.0f + strain), 0.5f * width, 0.0f }));
+    }
+    for (int32_t tick = 0; tick < 600; ++tick) {
+        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 2));
+    }
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    double far = 0.0, near = 0.0;
+    for (int32_t row = 0; row <= ROWS; ++row) {
+        near += (double)mesh.positions[3 * row * (COLUMNS + 1)] / (ROWS + 1);
+        far += (double)mesh.positions[3 * (row * (COLUMNS + 1) + COLUMNS)] / (ROWS + 1);
+    }
+    return (far - near - (double)length) / (double)(length * strain);
+}
+
+TEST(SoftStripsAreSeenAsLongAsTheyShould)
+{
+    static const int32_t counts[3] = { 3, 5, 9 };
+    for (uint32_t k = 0; k < 12; ++k) {
+        Hold hold = k % 2 == 0 ? HANGS : PULLED;
+        int32_t count = counts[k / 4];
+        double even = ElongationOfStrip(hold, k / 2 % 2 == 1, count, 0.0, 0);
+        double moved = ElongationOfStrip(hold, k / 2 % 2 == 1, count, 0.1, k + 1);
+        print_message("%d frames, %s, %s: %.4f, %.4f\n", count, hold == HANGS ? "hangs" : "pulled",
+                      k / 2 % 2 == 1 ? "hinged" : "clamped", even, moved);
+        assert_true(fabs(even - 1.0) < 0.005 && fabs(moved - 1.0) < (hold == HANGS ? 0.03 : 0.005));
+    }
+}
+
 /* N, with which a planar strip of nine frames resists a change of its length. */
 static double ForceOfStrip(float slack, float strain)
 {

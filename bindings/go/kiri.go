@@ -252,7 +252,7 @@ type Skinning int32
 const (
 	// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
 	SkinningLinear Skinning = 0
-	// each carries a patch that bends towards its neighbours: no bumps at the frames
+	// patches bend and stretch as their neighbours lie: no bumps at the frames
 	SkinningSmooth Skinning = 1
 )
 

@@ -305,11 +305,8 @@ static LinkStrains TakeStrains(const kiriLink* link, const double* strain)
 
 static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
 {
-    const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
-    kiriPose own[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
-    const kiriPose* const poses[2] = { &own[0], &own[1] };
     double strain[KIRI_STRAINS];
-    kiriStrain_Measure(link, material, ends, poses, 0.0, strain, NULL);
+    kiriStrain_MeasureLink(link, material, &frames[link->i], &frames[link->j], 0.0, strain);
     return TakeStrains(link, strain);
 }
 

@@ -725,8 +725,8 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 /* Frames are compared byte by byte, so they must have no padding. */
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
-static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
-                        const kiriFrameData* j, double turned, double* strain)
+void kiriStrain_MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
+                            const kiriFrameData* j, double turned, double strain[KIRI_STRAINS])
 {
     const kiriFrameData* const ends[2] = { i, j };
     const kiriPose now[2] = { kiriPose_Of(i), kiriPose_Of(j) };
@@ -765,10 +765,10 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
 {
     kiriStrainOffset offset;
     double strain[KIRI_STRAINS], turned[KIRI_STRAINS], was[KIRI_STRAINS] = { 0 };
-    MeasureLink(link, material, &frames[link->i], &frames[link->j], 0.0, strain);
-    MeasureLink(link, material, &frames[link->i], &frames[link->j], 1.0, turned);
+    kiriStrain_MeasureLink(link, material, &frames[link->i], &frames[link->j], 0.0, strain);
+    kiriStrain_MeasureLink(link, material, &frames[link->i], &frames[link->j], 1.0, turned);
     if (old != NULL) {
-        MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
+        kiriStrain_MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
                     kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->j), older->strain[KIRI_PLANE_BENDING], was);
     }
     kiriStrainOffset_Keep(strain, turned, was, older->strain, offset.strain);

@@ -96,6 +96,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
                         const kiriPose* const poses[2], double turned, double strain[KIRI_STRAINS],
                         kiriStrainRow* rows);
 
+/* Measures the strains of a link in the current poses of frames i and j. */
+void kiriStrain_MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
+                            const kiriFrameData* j, double turned, double strain[KIRI_STRAINS]);
+
 /* Folds (kiriLink.fold) have the same strains, with another meaning: gaps at the middle of the line, along the axes of
    frame i; plane bending and twist are the parts of tau_j along n_i and d_i; bending is the angle by which the sheet is
    folded towards its normal, less the rest angle. So nothing is undefined at half a turn, and the law is linear in the

@@ -347,9 +347,10 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
     bool isOther = !seen->surface.isSteady || seen->areFadesAsleep || /* positions of other bodies may have changed */
                    (sheet->rest.asleep && seen->fades.fading.count + seen->pointFades.fading.count > 0);
     moved = moved->isListed && !isOther && isLocal ? moved : NULL;
-    kiriSurface_TakeFrames(&seen->surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
-                           sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
-                           moved != NULL ? &moved->links : NULL);
+    const kiriPulls pulls = { sheet->links.links.data, sheet->links.links.count,
+                              sheet->settings.mechanics.model == KIRI_MODEL_LINKS, &sheet->settings.material };
+    kiriSurface_TakeFrames(&seen->surface, sheet->frames.data, sheet->frames.count, &pulls,
+                           moved != NULL ? &moved->frames : NULL, moved != NULL ? &moved->links : NULL);
     if (seen->surface.isPartly && (moved->version != seen->lists || seen->blocks.hasUnknown)) {
         FindMovers(sheet);
         seen->lists = moved->version;

@@ -67,14 +67,11 @@ static bool ListTips(kiriSheetData* sheet)
 static void MeasurePull(const kiriSheetData* sheet, int32_t k, const kiriLink* link, const kiriFrameData* i,
                         const kiriFrameData* j, double pulling[KIRI_STRAINS])
 {
-    const kiriFrameData* const ends[2] = { i, j };
-    const kiriPose own[2] = { kiriPose_Of(i), kiriPose_Of(j) };
-    const kiriPose* const poses[2] = { &own[0], &own[1] };
     const kiriStrainOffset none = { { 0.0 } };
     double strain[KIRI_STRAINS];
     bool hasOffsets = sheet->strainOffsets.strainOffsets.count > 0;
     const double* offset = hasOffsets ? sheet->strainOffsets.strainOffsets.data[k].strain : none.strain;
-    kiriStrain_Measure(link, &sheet->settings.material, ends, poses, offset[KIRI_PLANE_BENDING], strain, NULL);
+    kiriStrain_MeasureLink(link, &sheet->settings.material, i, j, offset[KIRI_PLANE_BENDING], strain);
     kiriStrain_TakeOffsets(strain, offset, KIRI_STRAINS, false, pulling);
 }
 

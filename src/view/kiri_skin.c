@@ -31,41 +31,29 @@ void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int3
 
    A frame that stretches by s has arcs s times as long for the same angles: so K and six are divided by s^2. */
 
-/* Adds how the director of another frame, s away, leans seen from a frame. */
-static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
+/* Returns the turn of the director of another frame, seen from a frame. */
+static kiriVec2 TurnOf(const kiriCarrier* carrier, kiriVec3 other)
 {
     /* The angle over its sine, from its cosine: Pade's [2/2] of the arc tangent of the half-angle, 0.8 % off at a right
        angle. Beyond it the factor stays: frames back to back do not lean, so the surface does not jump as they turn past. */
     double lower = kiriMax(1.0 + kiriVec3_Dot(carrier->d, other), 1.0), x = (2.0 - lower) / lower;
-    double k = -weight * (1.0 + x) * (15.0 + 4.0 * x) / (15.0 + 9.0 * x);
-    double tu = k * kiriVec3_Dot(carrier->u, other), tv = k * kiriVec3_Dot(carrier->v, other);
-    bend->uu += weight * s.x * s.x;
-    bend->uv += weight * s.x * s.y;
-    bend->vv += weight * s.y * s.y;
-    bend->ruu += s.x * tu;
-    bend->ruv += s.y * tu + s.x * tv;
-    bend->rvv += s.y * tv;
+    double k = -(1.0 + x) * (15.0 + 4.0 * x) / (15.0 + 9.0 * x);
+    return kiriVec2_Make(k * kiriVec3_Dot(carrier->u, other), k * kiriVec3_Dot(carrier->v, other));
 }
 
-/* Finds the symmetric K that best takes each way s to its lean. The share `least`, a thousandth, chooses the least K where
-   neighbors in a row leave it open, and limits how far K follows the noise across the row.
-
-   The patch is bent less where it would turn too far: there are creases, narrow bridges, and neighbors on both sides of a
+/* The patch is bent less where it would turn too far: there are creases, narrow bridges, and neighbors on both sides of a
    slit that bend apart, so neighbors do not tell how the region bends. */
 static void BendCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFrameData* frame)
 {
     const double mostTurn = 0.2; /* rad, rms over the region: on an arc that is 40 degrees from frame to frame */
-    double least = 1e-3 * (bend->uu + bend->vv), m = bend->uv;
-    double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
-    double det = a * (b * c - m * m) - m * m * c;
     double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
     /* A patch that is nearly a line, or is stretched 1e12 times, stays flat: floats cannot hold `six`. */
-    if (det > 0.0 && square > 1e-24 && square < 1e24) {
-        double scale = 1.0 / (square * det);
+    if (square > 1e-24 && square < 1e24) {
+        kiriTensor turn = kiriTensor_Solve(bend->matrix, bend->turnBy);
         carrier->six = 6.0 / square;
-        carrier->uu = scale * ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv);
-        carrier->uv = scale * (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv);
-        carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
+        carrier->uu = turn.uu / square;
+        carrier->uv = turn.uv / square;
+        carrier->vv = turn.vv / square;
     }
     double uu = carrier->uu, uv = carrier->uv, vv = carrier->vv;
     const double* moments = frame->inertia;
@@ -80,26 +68,68 @@ static void BendCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFr
     }
 }
 
-void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
-                       const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
+/* Stretches a patch about the site of its frame as its neighbors lie farther than at rest; at most so far that it cannot
+   turn over. */
+static void StretchCarrier(kiriCarrier* carrier, const kiriBend* bend, kiriVec2 site)
+{
+    const double most = 0.9;
+    kiriTensor by = kiriTensor_Solve(bend->matrix, bend->longerBy);
+    double size = sqrt(by.uu * by.uu + 2.0 * by.uv * by.uv + by.vv * by.vv), part = size > most ? most / size : 1.0;
+    kiriVec3 u = carrier->u, v = carrier->v;
+    kiriVec2 off = kiriVec2_Scale(part, kiriVec2_Sub(carrier->center, site));
+    carrier->u = kiriVec3_AddScaled(kiriVec3_AddScaled(u, part * by.uu, u), part * by.uv, v);
+    carrier->v = kiriVec3_AddScaled(kiriVec3_AddScaled(v, part * by.uv, u), part * by.vv, v);
+    carrier->x = kiriVec3_AddScaled(carrier->x, by.uu * off.x + by.uv * off.y, u);
+    carrier->x = kiriVec3_AddScaled(carrier->x, by.uv * off.x + by.vv * off.y, v);
+}
+
+/* A thousandth of the sum of squares is added: it chooses the least tensor where neighbors in a row leave it open, and
+   limits how far it follows the noise across the row. */
+void kiriCarriers_Fit(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
+                      const kiriPulls* pulls, const kiriIndices* some, const kiriIndices* someLinks)
 {
     KIRI_TIMES(n, ItemCount(some, count)) {
         bends[SampleAt(some, n)] = (kiriBend){ 0 };
     }
-    linkCount = kiriLink_CountBorders(links, linkCount); /* a patch does not bend over a fold */
+    int32_t linkCount = kiriLink_CountBorders(pulls->links, pulls->count); /* a patch does not bend over a fold */
     for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && SampleAt(someLinks, n) < linkCount; ++n) {
-        const kiriLink* link = &links[SampleAt(someLinks, n)];
+        const kiriLink* link = &pulls->links[SampleAt(someLinks, n)];
         KIRI_ASSERT(link->i >= 0 && link->i < count && link->j >= 0 && link->j < count);
-        kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
-        kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
-        kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
-        kiriVec2 way = kiriVec2_Add(kiriVec2_Add(start, link->span), end); /* from center to center */
-        AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
-        AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
+        const kiriFrameData *i = &frames[link->i], *j = &frames[link->j];
+        const kiriCarrier *patch = &carriers[link->i], *next = &carriers[link->j];
+        kiriVec2 start = kiriVec2_Sub(i->site.at, i->center), end = kiriVec2_Sub(j->center, j->site.at);
+        kiriVec2 s = kiriVec2_Add(kiriVec2_Add(start, link->span), end), longer = { 0 }; /* from center to center */
+        /* Tension alone: with pressure and shear, cloths on obstacles come to rest later. It fades in folds, where the way
+           from site to site is not in one plane. */
+        if (pulls->areRigid) {
+            double strain[KIRI_STRAINS], fold = 2.0 * (1.0 - kiriVec3_Dot(patch->d, next->d));
+            kiriStrain_MeasureLink(link, pulls->material, i, j, 0.0, strain);
+            double tension = kiriMax(strain[KIRI_STRETCH], 0.0) / (link->length * (1.0 + fold * fold));
+            longer = kiriVec2_Scale(tension * kiriVec2_Length(s), link->normal);
+        }
+        const kiriVec2 turns[2] = { TurnOf(patch, next->d), kiriVec2_Scale(-1.0, TurnOf(next, patch->d)) };
+        KIRI_TIMES(k, 2) {
+            kiriBend* bend = &bends[k == 0 ? link->i : link->j];
+            kiriVec2 ws = kiriVec2_Scale(link->width, s);
+            bend->matrix.uu += ws.x * s.x;
+            bend->matrix.uv += ws.x * s.y;
+            bend->matrix.vv += ws.y * s.y;
+            bend->turnBy[0] = kiriVec2_AddScaled(bend->turnBy[0], turns[k].x, ws);
+            bend->turnBy[1] = kiriVec2_AddScaled(bend->turnBy[1], turns[k].y, ws);
+            bend->longerBy[0] = kiriVec2_AddScaled(bend->longerBy[0], longer.x, ws);
+            bend->longerBy[1] = kiriVec2_AddScaled(bend->longerBy[1], longer.y, ws);
+        }
     }
     KIRI_TIMES(n, ItemCount(some, count)) {
         int32_t i = SampleAt(some, n);
-        BendCarrier(&carriers[i], &bends[i], &frames[i]);
+        kiriTensor* matrix = &bends[i].matrix;
+        double least = 1e-3 * (matrix->uu + matrix->vv);
+        if (least > 0.0) {
+            matrix->uu += least;
+            matrix->vv += least;
+            BendCarrier(&carriers[i], &bends[i], &frames[i]);
+            StretchCarrier(&carriers[i], &bends[i], frames[i].site.at);
+        }
     }
 }
 

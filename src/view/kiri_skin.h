@@ -3,7 +3,7 @@
 #define KIRI_SKIN_H
 
 #include "../field/kiri_link.h"
-#include "../motion/kiri_frame.h"
+#include "../motion/kiri_strain.h"
 #include "kiri_sample.h"
 #include "../mesh/kiri_mesh.h"
 
@@ -17,19 +17,27 @@ typedef struct kiriCarrier {
     double uu, uv, vv, six; /* curvature K, 1/m; 6 for a rigid frame */
 } kiriCarrier;
 
-/* Normal equations for the curvature of a patch, from the neighbors of its frame. */
+/* Normal equations for curvature and strain of a patch, from the neighbors of its frame (kiriTensor_Solve). */
 typedef struct kiriBend {
-    double uu, uv, vv;    /* sums of w s s; s: way to the neighbor, w: width of the link */
-    double ruu, ruv, rvv; /* sums of w s t; t: turn of the director over s */
+    kiriTensor matrix;   /* sum of w s s^T; s: way to the neighbor, w: width of the link */
+    kiriVec2 turnBy[2];  /* sum of w t s^T; t: turn of the director over s */
+    kiriVec2 longerBy[2]; /* the same; t: how much longer s is */
 } kiriBend;
 
 /* Writes flat patches, one a frame. Here and below only `some` frames are written, unless that is null. */
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some);
 
-/* Bends the patches by the links: all links, or `someLinks` (ascending) below linkCount. `bends` is scratch, one a
-   frame. */
-void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
-                       const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks);
+/* What bends and stretches patches. */
+typedef struct kiriPulls {
+    const kiriLink* links;
+    int32_t count; /* of links */
+    bool areRigid; /* the frames: their patches stretch too */
+    const kiriMaterial* material;
+} kiriPulls;
+
+/* Bends and stretches the patches by the links: all links, or `someLinks` (ascending). `bends` is scratch, one a frame. */
+void kiriCarriers_Fit(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
+                      const kiriPulls* pulls, const kiriIndices* some, const kiriIndices* someLinks);
 
 /* Linear-blend skinning in floats (section 4.1 of the paper). */
 

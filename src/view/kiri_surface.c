@@ -501,10 +501,9 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
 }
 
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
-                            const kiriIndices* movedLinks)
+                            const kiriPulls* pulls, const kiriIndices* moved, const kiriIndices* movedLinks)
 {
-    bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
+    bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && pulls->count > 0;
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
     surface->middle = middle;
     if (!kiriVec3_Equal(was, middle)) {
@@ -515,8 +514,8 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
     const kiriIndices* some = surface->isPartly ? moved : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
-        kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount, some,
-                          surface->isPartly ? movedLinks : NULL);
+        kiriCarriers_Fit(surface->carriers.data, surface->bends.data, frames, frameCount, pulls, some,
+                         surface->isPartly ? movedLinks : NULL);
     }
     bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
     surface->isWritten = surface->isWritten && !isOther;

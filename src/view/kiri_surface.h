@@ -210,12 +210,11 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over the current frames. The links determine how a smooth surface bends; a linear surface ignores them. Arrays
-   are not written again if nothing has changed. `moved`: the only frames that may have moved since the last call, and
+/* Takes over the current frames. The links determine how a smooth surface bends and stretches; a linear surface ignores
+   them. Arrays are not written again if nothing has changed. `moved`: the only frames that may have moved since the last call, and
    `movedLinks`: their links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
-                            const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
-                            const kiriIndices* movedLinks);
+                            const kiriPulls* pulls, const kiriIndices* moved, const kiriIndices* movedLinks);
 
 /* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);

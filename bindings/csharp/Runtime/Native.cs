@@ -460,7 +460,7 @@ namespace Kiri
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
         Linear = 0,
-        /// <summary>each carries a patch that bends towards its neighbours: no bumps at the frames</summary>
+        /// <summary>patches bend and stretch as their neighbours lie: no bumps at the frames</summary>
         Smooth = 1,
     }
 

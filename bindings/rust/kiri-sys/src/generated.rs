@@ -122,7 +122,7 @@ pub const KIRI_MODEL_POINTS: i32 = 2;
 
 /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
 pub const KIRI_SKINNING_LINEAR: i32 = 0;
-/// each carries a patch that bends towards its neighbours: no bumps at the frames
+/// patches bend and stretch as their neighbours lie: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
 /// TR-BDF2, of second order: keeps the energy of motion

@@ -455,7 +455,7 @@ impl Model {
 pub enum Skinning {
     /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
     Linear = 0,
-    /// each carries a patch that bends towards its neighbours: no bumps at the frames
+    /// patches bend and stretch as their neighbours lie: no bumps at the frames
     Smooth = 1,
 }
 
