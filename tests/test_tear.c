@@ -491,6 +491,26 @@ TEST(TearsPart)
     assert_int_equal(told.began, told.ended);
 }
 
+/* A tear ends half a second after its last point, also in a sheet that has fallen asleep meanwhile. */
+TEST(TearsEndInSheetsThatSleep)
+{
+    START_HOST(host);
+    Trouser t;
+    Told told = { 0 };
+    kiriSheetSettings settings;
+    int32_t awake = 1;
+    PlayTo(&t, host.world, BEFORE);
+    OK(kiriSheet_GetSettings(host.world, t.sheet, &settings));
+    settings.sleepSpeed = 100.0f;
+    OK(kiriSheet_SetSettings(host.world, t.sheet, &settings));
+    for (int32_t n = 0; n < 90; ++n) {
+        assert_true(kiriWorld_Tick(host.world, Dt, 2) >= 0);
+        Told_Add(&told, &host);
+    }
+    OK(kiriSheet_IsAwake(host.world, t.sheet, &awake));
+    assert_true(awake == 0 && told.ended > 0);
+}
+
 /* Without toughness a world is the same to the bit, and allocates nothing more. */
 TEST(NothingCostsWithoutToughness)
 {
