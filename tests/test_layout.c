@@ -311,6 +311,50 @@ TEST(SoftStripsAreSeenAsLongAsTheyShould)
     }
 }
 
+/* Returns the height, over the length, of the teardrop that a strip of spread frames forms: its clamped ends come together
+   and turn upward within `ticks`. */
+static double HeightOfTeardrop(int32_t count, int32_t ticks)
+{
+    const float length = 0.2f, width = 0.02f;
+    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
+    kiriPin clamps[2];
+    START_HOST(host);
+    host.every = 1000;
+    kiriSheetDef def = PaperDef(80, 1.0f);
+    def.skinning = KIRI_SKINNING_SMOOTH;
+    def.frameCount = def.maxFrames = count;
+    OK(kiriWorld_SetGravity(host.world, (float[]){ 0.0f, 0.0f, 0.0f }));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 80, 8);
+    for (int k = 0; k < 2; ++k) {
+        OK(kiriSheet_ClampLine(host.world, sheet, ends + 4 * k, ends + 4 * k + 2, &clamps[k]));
+    }
+    for (int32_t tick = 1; tick <= ticks + 300; ++tick) {
+        float part = fminf((float)tick / (float)ticks, 1.0f), c = cosf(1.57079633f * part), s = sinf(1.57079633f * part);
+        for (int k = 0; k < 2; ++k) {
+            float x = 0.5f * length * (k == 0 ? part : 2.0f - part), up = k == 0 ? s : -s;
+            const float turned[9] = { c, 0.0f, up, 0.0f, 1.0f, 0.0f, -up, 0.0f, c };
+            OK(kiriPin_SetPose(host.world, clamps[k], (float[]){ x, 0.5f * width, 0.0f }, turned));
+        }
+        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 2));
+    }
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    double height = 0.0;
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        height = fmax(height, (double)mesh.positions[3 * i + 2]);
+    }
+    return height / (double)length;
+}
+
+TEST(TeardropsAreAsHighAsTheyShould)
+{
+    static const int32_t counts[4] = { 12, 24, 36, 48 };
+    for (int k = 0; k < 8; ++k) {
+        double off = HeightOfTeardrop(counts[k / 2], k % 2 == 0 ? 143 : 20) / 0.424308 - 1.0; /* of the elastica */
+        print_message("%d frames: %.2f %%\n", counts[k / 2], 100.0 * off);
+        assert_true(fabs(off) < 0.03);
+    }
+}
+
 /* N, with which a planar strip of nine frames resists a change of its length. */
 static double ForceOfStrip(float slack, float strain)
 {
