@@ -251,6 +251,52 @@ TEST(SwingLasts)
     assert_true(rough > 0.7 && rough < 1.0 && iterated > 0.7 && iterated < 1.0);
 }
 
+/* ---- Taut cloth -------------------------------------------------------------------------------------------------- */
+
+/* Lets a cotton of many frames hang by two corners. Returns the systems of a substep; positions: after the last tick. */
+static double HangCloth(int32_t frames, int32_t iterations, float* positions, int32_t* vertices)
+{
+    enum { TICKS = 100 };
+    double systems = 0.0;
+    START_HOST(host);
+    host.every = TICKS;
+    kiriSheetDef def = DefaultSheet();
+    OK(kiriGetMaterial(KIRI_MATERIAL_COTTON, &def.material));
+    def.frameCount = def.maxFrames = frames;
+    def.gridResolution = 64;
+    def.iterations = iterations;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 24, 24);
+    Host_Pin(&host, sheet, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f);
+    Host_Pin(&host, sheet, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f);
+    for (int32_t tick = 0; tick < TICKS; ++tick) {
+        OK(Host_Tick(&host, 1.0f / 60.0f, 2));
+        systems += World_Profile(host.world).systemsSolved / (2.0 * TICKS);
+    }
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    *vertices = mesh.vertexCount;
+    assert_true(mesh.vertexCount <= 1000);
+    memcpy(positions, mesh.positions, sizeof(float) * 3 * (size_t)mesh.vertexCount);
+    Host_Stop(&host);
+    return systems;
+}
+
+/* Two systems a substep are enough for cloth under tension: it hangs where eight systems put it. */
+TEST(TautClothConverges)
+{
+    for (int32_t frames = 144; frames <= 272; frames += 64) {
+        static float few[3000], many[3000];
+        int32_t vertices, same;
+        double sum = 0.0, systems = HangCloth(frames, 2, few, &vertices);
+        HangCloth(frames, 8, many, &same);
+        for (int32_t i = 0; i < 3 * vertices; ++i) {
+            sum += ((double)few[i] - many[i]) * ((double)few[i] - many[i]);
+        }
+        double off = sqrt(sum / vertices);
+        print_message("%d frames: %.2f systems a substep, %.1f mm from eight\n", (int)frames, systems, 1e3 * off);
+        assert_true(vertices == same && systems < 2.2 && off < 0.03);
+    }
+}
+
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
 /* The tip of a cantilever that was let go 0.4 s ago, as seen by the tip's frame. */

@@ -746,6 +746,17 @@ static void TurnSprings(const kiriYield* yield, const double* loss, const double
     kiriBentStrain_Write(&pull, pulls);
 }
 
+/* Returns by how much tension stiffens a link against its normal gap. Without it a Gauss-Newton step swings taut cloth too
+   far, and is cut short. It is the tension at the start of the step, or less: false stretch while frames turn does not
+   count. The first system of a step must turn frames freely; near contacts, heavy bodies would fall through the sheet. */
+static double TautnessOf(const kiriSolver* solver, const kiriLink* link, double stiffness, double start, double strain,
+                         double pulling)
+{
+    double tension = stiffness * kiriMin(start - strain + pulling, pulling);
+    bool isTaut = solver->search.solved > 0 && !solver->touch.isNear && link->fold == 0 && tension > 0.0;
+    return isTaut ? KIRI_TAUTNESS * tension / link->length : 0.0;
+}
+
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
 {
     const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
@@ -773,6 +784,10 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     KIRI_TIMES(e, rows) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
+    }
+    if (always == KIRI_FOLD) {
+        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, kiriElement_Link(system, k), stiffness[KIRI_STRETCH],
+                                               start[KIRI_STRETCH], strain[KIRI_STRETCH], pulling[KIRI_STRETCH]);
     }
     if (flow > 0.0) {
         const kiriYield* yield = &system->flows[k];
@@ -821,6 +836,10 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
         double* const traced[2] = { NULL, NULL };
         kiriYield_TurnRows(&row->yield, solver->size, &J[solver->size * KIRI_BENDING], &J[solver->size * KIRI_TWIST], traced);
         TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
+    }
+    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) {
+        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, &row->link, row->stiffness[KIRI_STRETCH],
+                                               row->startStrain[KIRI_STRETCH], strain[KIRI_STRETCH], pulling[KIRI_STRETCH]);
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
         bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;

@@ -68,6 +68,7 @@ KIRI_C_BEGIN
    The stop limits the normal gap of sheets that bend within less than l. Nothing else bounds it. */
 #define KIRI_NORMAL_GAP_BETA 12.0 /* for a strip that is clamped at both ends */
 #define KIRI_NORMAL_STOP_SHARE 0.5
+#define KIRI_TAUTNESS 1.2 /* 2 (1 - 2/5): second derivative of the stretch by the normal gap, see Y; by length */
 
 enum {
     KIRI_STRETCH,
@@ -171,8 +172,8 @@ void kiriTrace_Stiffness(const kiriCorner* corner, const kiriMaterial* material,
    larger or smaller gaps, which would add energy in a bent stiff sheet. So a link keeps its old strain: the difference
    is its offset, which fades with time. */
 
-/* Offsets that are subtracted from the strains of a link before these cause forces: that of plane bending times the
-   cosine of half the turn about d. */
+/* Offsets that are subtracted from the strains of a link before these cause forces; for plane bending, times the cosine
+   of half the turn about d. */
 typedef struct kiriStrainOffset {
     double strain[KIRI_STRAINS];
 } kiriStrainOffset;
