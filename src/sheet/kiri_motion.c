@@ -245,6 +245,11 @@ int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, cons
         sheet->touches.rows.count = 0;
         return next;
     }
+    /* Strains fade first, so that the substeps relax stiff links. */
+    double time = sheet->seen.fades.time;
+    kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &sheet->solver->moved.links, dt,
+                              kiriTears_AreGrowing(sheet) ? kiriMin(time, KIRI_TEAR_FADE) : time);
+    kiriPins_FadeOffsets(sheet, dt, time);
     kiriFollow_Begin(sheet, dt);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     kiriPins_BeginReactions(sheet);
@@ -261,10 +266,6 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
     } else if (isMoved && progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
-        double time = sheet->seen.fades.time;
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &sheet->solver->moved.links, dt,
-                                  kiriTears_AreGrowing(sheet) ? kiriMin(time, KIRI_TEAR_FADE) : time);
-        kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
     }
     kiriTouches_Tell(sheet, dt);
