@@ -836,7 +836,7 @@ static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
            kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(box, obstacle->position);
 }
 
-#define ORDINARY 100.0 /* m/s^2: acceleration by the load of a sheet's own weight and tension */
+#define ORDINARY 100.0 /* m/s^2: acceleration by a sheet's own weight and tension, where it lies on what cannot move */
 
 /* Returns how far the forces of the last tick could move the frames that bear them in this tick, m. A heavy obstacle
    stretches the sheet: a point of it that slips off moves by hundreds of g. */
@@ -851,7 +851,8 @@ static double WayUnderLoad(const kiriSheetData* sheet, const kiriObstacleData* o
             fastest = force > fastest * mass ? force / mass : fastest;
         }
     }
-    return dt * dt * kiriMax(fastest - ORDINARY, 0.0);
+    double ordinary = kiriObstacle_IsMovable(obstacle) ? 0.0 : ORDINARY;
+    return dt * dt * kiriMax(fastest - ordinary, 0.0);
 }
 
 static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
