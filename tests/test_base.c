@@ -2,7 +2,7 @@
    computations. */
 #define KIRI_PLAIN_LANES
 #define kiriCarriers_Write Plain_WriteCarriers
-#define kiriCarriers_Bend Plain_BendCarriers
+#define kiriCarriers_Fit Plain_FitCarriers
 #define kiriPatches_Reserve Plain_ReservePatches
 #define kiriPatches_Write Plain_WritePatches
 #define kiriPatches_Forget Plain_ForgetPatches
@@ -14,7 +14,7 @@
 #define kiriNormals_Write Plain_WriteNormals
 #include "view/kiri_skin.c"
 #undef kiriCarriers_Write
-#undef kiriCarriers_Bend
+#undef kiriCarriers_Fit
 #undef kiriPatches_Reserve
 #undef kiriPatches_Write
 #undef kiriPatches_Forget
