@@ -1,4 +1,4 @@
-/* What the tests share: how tests are written, and a seeded generator. */
+/* Shared by the tests: the form of a test, and a seeded generator. */
 #ifndef KIRI_TEST_SUPPORT_H
 #define KIRI_TEST_SUPPORT_H
 

@@ -42,7 +42,7 @@ enum { KIRI_NONE = -1 };
 #define KIRI_FROM_TO(i, first, end) for (int32_t i = (first); i < (end); ++i)
 #define KIRI_FROM_TO_WHILE(condition, i, first, end) for (int32_t i = (first); (condition) && i < (end); ++i)
 
-/* Sets all bytes of what a pointer points to to zero. */
+/* Fills the object of a pointer with zero bytes. */
 #define KIRI_CLEAR(pointer) memset(pointer, 0, sizeof(*(pointer)))
 
 /* Binary search: sets `at` to the first index from `first` to `end` for which isBelow is false, or to `end`. isBelow is
