@@ -749,12 +749,12 @@ static void TurnSprings(const kiriYield* yield, const double* loss, const double
 /* Returns by how much tension stiffens a link against its normal gap. Without it a Gauss-Newton step swings taut cloth too
    far, and is cut short. It is the tension at the start of the step, or less: false stretch while frames turn does not
    count. The first system of a step must turn frames freely; near contacts, heavy bodies would fall through the sheet. */
-static double TautnessOf(const kiriSolver* solver, const kiriLink* link, double stiffness, double start, double strain,
-                         double pulling)
+static double TautnessOf(const kiriSolver* solver, const kiriLink* link, const double* stiffness, const double* start,
+                         const double* strain, const double* pulling)
 {
-    double tension = stiffness * kiriMin(start - strain + pulling, pulling);
-    bool isTaut = solver->search.solved > 0 && !solver->touch.isNear && link->fold == 0 && tension > 0.0;
-    return isTaut ? KIRI_TAUTNESS * tension / link->length : 0.0;
+    double now = pulling[KIRI_STRETCH], least = kiriMin(start[KIRI_STRETCH] - strain[KIRI_STRETCH] + now, now);
+    bool isTaut = solver->search.solved > 0 && !solver->touch.isNear && link->fold == 0 && least > 0.0;
+    return isTaut ? KIRI_TAUTNESS * (stiffness[KIRI_STRETCH] * least) / link->length : 0.0;
 }
 
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
@@ -786,8 +786,8 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
     }
     if (always == KIRI_FOLD) {
-        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, kiriElement_Link(system, k), stiffness[KIRI_STRETCH],
-                                               start[KIRI_STRETCH], strain[KIRI_STRETCH], pulling[KIRI_STRETCH]);
+        springs[KIRI_NORMAL_GAP] +=
+            TautnessOf(solver, kiriElement_Link(system, k), stiffness, start, strain, pulling);
     }
     if (flow > 0.0) {
         const kiriYield* yield = &system->flows[k];
@@ -838,13 +838,12 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
         TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) {
-        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, &row->link, row->stiffness[KIRI_STRETCH],
-                                               row->startStrain[KIRI_STRETCH], strain[KIRI_STRETCH], pulling[KIRI_STRETCH]);
-    }
-    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
-        bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
-        springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
-        springs[KIRI_NORMAL_GAP] += springs[KIRI_NORMAL_STOP];
+        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, &row->link, row->stiffness, row->startStrain, strain, pulling);
+        if (strain[KIRI_NORMAL_STOP] == 0.0) {
+            bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
+            springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
+            springs[KIRI_NORMAL_GAP] += springs[KIRI_NORMAL_STOP];
+        }
     }
     kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }

@@ -263,11 +263,13 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
     kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex), from = kiriObstacle_PointToLocal(obstacle, x);
-    kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, from, meeting->across);
-    /* A turn moves the surface along its normal only. */
-    kiriVec3 turning = kiriVec3_Sub(kiriObstacle_VelocityAt(obstacle, x), obstacle->velocity);
-    turning = kiriVec3_Across(turning, kiriObstacle_ToWorld(obstacle, nearest.normal));
-    kiriVec3 velocity = kiriVec3_Add(kiriProbe_Velocity(meeting->sheet, vertex), turning);
+    kiriVec3 velocity = kiriProbe_Velocity(meeting->sheet, vertex);
+    kiriNearest nearest;
+    if (kiriVec3_Dot(obstacle->spin, obstacle->spin) > 0.0) { /* a turn moves the surface along its normal only */
+        nearest = kiriObstacleShape_Nearest(&obstacle->shape, from, meeting->across);
+        velocity = kiriVec3_Add(velocity, kiriVec3_Across(kiriVec3_Sub(kiriObstacle_VelocityAt(obstacle, x), obstacle->velocity),
+                                                          kiriObstacle_ToWorld(obstacle, nearest.normal)));
+    }
     kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, velocity));
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
     if (share >= 1.0 && nearest.distance > meeting->near) {
@@ -848,11 +850,10 @@ static double WayUnderLoad(const kiriSheetData* sheet, const kiriObstacleData* o
             kiriObstacle_SlotOfKey(touch->key) == (int32_t)(obstacle->id & (KEY_SLOTS - 1))) {
             double mass = sheet->frames.data[kiriSkin_LeadingFrame(&sheet->vertexSkin, touch->vertex[0])].mass;
             double force = kiriVec3_Length(kiriTouches_ForceOf(sheet, touch->key));
-            fastest = force > fastest * mass ? force / mass : fastest;
+            fastest = kiriMax(force / mass, fastest);
         }
     }
-    double ordinary = kiriObstacle_IsMovable(obstacle) ? 0.0 : ORDINARY;
-    return dt * dt * kiriMax(fastest - ordinary, 0.0);
+    return dt * dt * kiriMax(fastest - (kiriObstacle_IsMovable(obstacle) ? 0.0 : ORDINARY), 0.0);
 }
 
 static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
