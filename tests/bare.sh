@@ -27,7 +27,7 @@ in_root 'make -C /kiri example'
 grep -q '^2 pieces$' "$root/log"
 in_root 'make -C /kiri play ARGS="--headless --ticks 10 --pictures build/played" && test -s /kiri/build/played/frame_0001.png'
 in_root 'make -C /kiri install && apt-get -y --no-install-recommends install pkg-config'
-sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' > "$root/tmp/example.c"
-in_root 'cd /tmp && cc example.c $(pkg-config --cflags --libs kiri) -o example && ./example'
+sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' > "$root/example.c"
+in_root 'cd / && cc example.c $(pkg-config --cflags --libs kiri) -o example && ./example'
 grep -q '^2 pieces$' "$root/log"
 echo "bare $suite: run, example, play, install and the program of the README work"
