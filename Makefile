@@ -119,7 +119,7 @@ GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
 # Drawings to cut: SVG, DXF, FOLD.
 IMPORT_OBJECTS := $(filter $(BUILD)/samples/import% %/export.c.o,$(SAMPLE_OBJECTS))
 # What games and their tests share with the samples.
-PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges offscreen)
+PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,canvas canvas_body canvas_camera canvas_overlay image edges lines offscreen)
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o %/sheets.c.o,$(SAMPLE_OBJECTS))
 # Checks and hashes of a whole world, for all tests.
@@ -342,7 +342,7 @@ guide: packages-guide
 # The programs of the manual, as a user compiles them; what they print is what it says. And with what takes pictures.
 MANUAL = $(PYTHON) samples/manual/manual.py $(BUILD)/manual \
     '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude -Isamples {source} $(IMPORT_OBJECTS) $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
-MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines offscreen) $(BUILD)/libkiri.a
+MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 
 .PHONY: manual manual-programs manual-golden
 
@@ -569,7 +569,7 @@ $(RUN): $(filter %.c.o,$(SAMPLE_OBJECTS)) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ $(GL_LIBRARIES) -lpng -lz -lm
 
-$(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(BUILD)/samples/draw.c.o $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
+$(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 

@@ -1,4 +1,4 @@
-/* Draws a sheet into a picture, without a window (offscreen.h). */
+/* Draws a scene with a sheet into a picture (canvas.h). */
 #ifndef DRAW_H
 #define DRAW_H
 
@@ -6,14 +6,15 @@
 #include "lines.h"
 #include "scene.h"
 
+enum { VIEW_MOST_BLADES = 4 };
+
 typedef struct View {
     Camera camera;
     float size; /* m: one of the camera's lengths; 0: 1 */
     kiriMesh mesh;
     bool isSolid; /* it has rims: no lines along its edges */
     Look look;
-    const float* colors; /* 9 a triangle: red, green, blue at its corners; null: as it looks */
-    const float* pins;   /* 3 a pin: the sheet hangs from threads here */
+    const float* pins; /* 3 a pin: the sheet hangs from threads here */
     int32_t pinCount;
     bool pegs;             /* or it is on pegs in a wall */
     const uint8_t* raster; /* rasterSize x rasterSize colours over the rest plane instead of the look; or null */

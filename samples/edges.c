@@ -63,3 +63,33 @@ int32_t Edges_FindOpen(Edge* edges, const kiriMesh* mesh)
     }
     return count;
 }
+
+bool EdgeLines_Find(EdgeLines* lines, const kiriMesh* mesh)
+{
+    Edge* edges = malloc(sizeof(Edge) * 3 * (size_t)(mesh->triangleCount + 1));
+    int32_t count = edges != NULL ? Edges_FindOpen(edges, mesh) : 0;
+    int32_t* ends = edges != NULL ? realloc(lines->lips, sizeof(int32_t) * 2 * (size_t)(count + 1)) : NULL;
+    if (ends == NULL) {
+        free(edges);
+        return false;
+    }
+    *lines = (EdgeLines){ .lips = ends };
+    for (int32_t i = 0; i < count; i++) {
+        lines->lipCount += edges[i].cut;
+    }
+    lines->rimCount = count - lines->lipCount;
+    lines->rims = ends + 2 * lines->lipCount;
+    int32_t* next[2] = { lines->rims, lines->lips };
+    for (int32_t i = 0; i < count; i++) {
+        *next[edges[i].cut]++ = edges[i].a;
+        *next[edges[i].cut]++ = edges[i].b;
+    }
+    free(edges);
+    return true;
+}
+
+void EdgeLines_Free(EdgeLines* lines)
+{
+    free(lines->lips);
+    *lines = (EdgeLines){ .lips = NULL };
+}

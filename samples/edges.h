@@ -21,6 +21,17 @@ typedef struct Edge {
    edges a triangle. */
 int32_t Edges_FindOpen(Edge* edges, const kiriMesh* mesh);
 
+/* Open edges to draw: two vertices each. */
+typedef struct EdgeLines {
+    int32_t *lips, *rims; /* of cuts, of the outline; in one block */
+    int32_t lipCount, rimCount;
+} EdgeLines;
+
+/* Replaces the lines. False without memory. */
+bool EdgeLines_Find(EdgeLines* lines, const kiriMesh* mesh);
+
+void EdgeLines_Free(EdgeLines* lines);
+
 #ifdef __cplusplus
 }
 #endif

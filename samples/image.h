@@ -6,6 +6,10 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct Image {
     int32_t width, height;
     uint8_t* rgb; /* rows from the top */
@@ -42,5 +46,9 @@ bool Apng_Add(Apng* apng, const Image* image, int32_t delay);
 
 /* False when frames are missing, or when anything could not be written. Closes in any case; again, it does nothing. */
 bool Apng_Close(Apng* apng);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

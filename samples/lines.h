@@ -6,6 +6,10 @@
 
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct Vertices {
     kiriDrawVertex* data;
     int32_t count, capacity;
@@ -25,5 +29,9 @@ bool Lines_Add(Lines* lines, const kiriWorld* world, kiriSheet sheet, uint32_t f
 void Lines_Clear(Lines* lines);
 
 void Lines_Free(Lines* lines);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

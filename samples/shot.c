@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_BLADES = 4 };
-
 bool Shot_Create(Shot* shot, int32_t width, int32_t height)
 {
     *shot = (Shot){ .painter = Painter_Create(width, height) };
@@ -85,7 +83,7 @@ bool Shot_Take(Shot* shot, const Scene* scene, const Options* options, Image* im
                   .pins = scene->targets[0],
                   .pinCount = scene->pinCount,
                   .pegs = scene->type->pegs };
-    float restPoints[MAX_BLADES][2], blades[MAX_BLADES][3];
+    float restPoints[VIEW_MOST_BLADES][2], blades[VIEW_MOST_BLADES][3];
     if (Debug_IsWanted(&options->debug)) { /* a raster over the rest plane is of one sheet */
         kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
     } else if (Sheets_Take(&shot->sheets, scene->world)) {
@@ -106,7 +104,7 @@ bool Shot_Take(Shot* shot, const Scene* scene, const Options* options, Image* im
         return false;
     }
     view.lines = shot->debug.lines;
-    view.bladeCount = Scene_GetBlades(scene, restPoints, MAX_BLADES);
+    view.bladeCount = Scene_GetBlades(scene, restPoints, VIEW_MOST_BLADES);
     view.blades = blades[0];
     for (int32_t i = 0; i < view.bladeCount; i++) {
         memcpy(blades[i], FindVertex(&view.mesh, restPoints[i]), sizeof blades[i]);

@@ -1,4 +1,5 @@
 /* What games share (scripts, camera, sounds, memory), and Curtain: it goes on as its script says, and can be won. */
+#include "../samples/canvas_parts.h"
 #include "../samples/games/games.h"
 #include "../samples/games/play.h"
 #include "../samples/games/script.h"
@@ -71,13 +72,13 @@ TEST(ScriptRefusesNonsense)
 
 TEST(RaysMeetWhatIsSeenThere)
 {
-    const GameCamera cameras[2] = { { { 0.3f, -3.0f, 1.5f }, { 0.0f, 0.2f, 0.8f }, 34.0f, 0.0f },
-                                    { { 0.0f, -5.0f, 1.0f }, { 0.5f, 0.0f, 1.2f }, 0.0f, 2.5f } };
+    const CanvasCamera cameras[2] = { { { 0.3f, -3.0f, 1.5f }, { 0.0f, 0.2f, 0.8f }, 34.0f, 0.0f },
+                                      { { 0.0f, -5.0f, 1.0f }, { 0.5f, 0.0f, 1.2f }, 0.0f, 2.5f } };
     const float point[3] = { 0.4f, 0.3f, 1.1f };
     for (int i = 0; i < 2; i++) {
         float x, y, origin[3], direction[3], along = 0.0f, off = 0.0f;
-        assert_true(GameCamera_Project(&cameras[i], point, &x, &y));
-        GameCamera_GetRay(&cameras[i], x, y, origin, direction);
+        assert_true(CanvasCamera_Project(&cameras[i], point, &x, &y));
+        CanvasCamera_GetRay(&cameras[i], x, y, origin, direction);
         for (int k = 0; k < 3; k++) {
             along += (point[k] - origin[k]) * direction[k];
         }
@@ -85,7 +86,7 @@ TEST(RaysMeetWhatIsSeenThere)
             off += fabsf(origin[k] + along * direction[k] - point[k]);
         }
         assert_true(along > 0.0f && off < 1e-5f);
-        assert_true(GameCamera_Project(&cameras[i], cameras[i].target, &x, &y));
+        assert_true(CanvasCamera_Project(&cameras[i], cameras[i].target, &x, &y));
         assert_true(fabsf(x - 0.5f * GAME_WIDTH) < 1e-3f && fabsf(y - 0.5f * GAME_HEIGHT) < 1e-3f);
     }
 }
@@ -94,8 +95,8 @@ TEST(RaysMeetWhatIsSeenThere)
 TEST(TextIsSeen)
 {
     const Color white = { 1.0f, 1.0f, 1.0f, 1.0f }, black = { 0.0f, 0.0f, 0.0f, 1.0f };
-    const GameCamera camera = { { 0.0f, -1.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 45.0f, 0.0f };
-    Canvas* canvas = Canvas_Create(GAME_WIDTH, GAME_HEIGHT, 1);
+    const CanvasCamera camera = { { 0.0f, -1.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 45.0f, 0.0f };
+    Canvas* canvas = Canvas_Create(GAME_WIDTH, GAME_HEIGHT, 1, OverlayText_Draw);
     Image image;
     int32_t dark[3] = { 0, 0, 0 };
     assert_non_null(canvas);
@@ -108,9 +109,8 @@ TEST(TextIsSeen)
         }
         assert_true(Canvas_Finish(canvas, &image));
         for (int32_t i = 0; i < GAME_WIDTH * GAME_HEIGHT; i++) {
-            int32_t x = i % GAME_WIDTH, y = i / GAME_WIDTH;
-            bool isInside = y >= 199 && y < 241 && x >= 300 && x < 420;
-            dark[covered ? 2 : isInside ? 0 : 1] += image.rgb[3 * i] < 128;
+            int32_t x = i % GAME_WIDTH, y = i / GAME_WIDTH, isOutside = y < 199 || y >= 241 || x < 300 || x >= 420;
+            dark[covered ? 2 : isOutside] += image.rgb[3 * i] < 128;
         }
     }
     Image_Free(&image);

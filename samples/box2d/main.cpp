@@ -5,6 +5,7 @@
 
 #include "kiri_box2d.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -15,10 +16,7 @@
 
 #include <sys/stat.h>
 
-extern "C" {
-#include "../draw.h"
-#include "../image.h"
-}
+#include "../canvas.h"
 
 namespace
 {
@@ -40,12 +38,11 @@ struct Options {
     int ticks = 240, every = 20, width = 640, height = 480;
 };
 
-struct Color {
-    float red, green, blue;
-};
-
-const Color CARDBOARD = { 0.72f, 0.56f, 0.38f }, GREEN = { 0.45f, 0.62f, 0.42f };
-const Color BLUE = { 0.30f, 0.55f, 0.80f }, LIGHT_BLUE = { 0.42f, 0.66f, 0.88f };
+const Color CARDBOARD = { 0.72f, 0.56f, 0.38f, 1.0f }, GREEN = { 0.45f, 0.62f, 0.42f, 1.0f };
+const Color BLUE = { 0.42f, 0.66f, 0.88f, 1.0f }, PALE = { 0.80f, 0.88f, 0.94f, 1.0f },
+            STEEL = { 0.3f, 0.31f, 0.35f, 1.0f };
+const Color SKY = { 0.985f, 0.985f, 0.98f, 1.0f }, HAZE = { 0.92f, 0.925f, 0.93f, 1.0f };
+const Color GROUND = { 0.82f, 0.82f, 0.84f, 1.0f }, INK = { 0.13f, 0.16f, 0.24f, 1.0f };
 
 struct Simulation {
     b2World bodies{ b2Vec2(0.0f, -9.81f * UNITS) };
@@ -180,137 +177,83 @@ kiriResult Tick(Simulation& simulation, int tick)
 
 /* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
-/* The strip and the bodies as one mesh for the painter. */
-struct Soup {
-    std::vector<float> positions, normals, restPositions, colors;
-    std::vector<int32_t> indices;
-};
-
-void AddTriangle(Soup& soup, int32_t a, int32_t b, int32_t c, const Color& color)
+CanvasBody MakeBody(int shape, float x, float y, float z, const b2Rot& turn, const Color& color)
 {
-    for (int32_t corner : { a, b, c }) {
-        soup.indices.push_back(corner);
-        soup.colors.insert(soup.colors.end(), { color.red, color.green, color.blue });
-    }
+    CanvasBody body = CanvasBody();
+    const float columns[9] = { turn.c, 0.0f, turn.s, -turn.s, 0.0f, turn.c, 0.0f, -1.0f, 0.0f };
+    body.shape = shape;
+    body.position[0] = x;
+    body.position[1] = y;
+    body.position[2] = z;
+    std::copy(columns, columns + 9, body.rotation);
+    body.color = color;
+    return body;
 }
 
-int32_t AddVertex(Soup& soup, const b2Vec2& place, float y, const b2Vec2& normal, float normalY)
-{
-    int32_t index = static_cast<int32_t>(soup.positions.size() / 3);
-    soup.positions.insert(soup.positions.end(), { place.x / UNITS, y, place.y / UNITS });
-    soup.normals.insert(soup.normals.end(), { normal.x, normalY, normal.y });
-    /* A place of its own outside the strip, so that it shares no cut edge. */
-    soup.restPositions.insert(soup.restPositions.end(), { 10.0f + 0.01f * static_cast<float>(index), 10.0f });
-    return index;
-}
+/* Outlines of bodies, kept until the picture is done. */
+using Outlines = std::vector<std::vector<float>>;
 
-/* Round bodies share the vertices of their sides, for the painter draws edges that no two triangles share. */
-void AddRoundSides(Soup& soup, const std::vector<b2Vec2>& corners, const b2Vec2& center, const Color& color)
-{
-    int32_t first = 0, count = static_cast<int32_t>(corners.size());
-    for (int32_t i = 0; i < count; ++i) {
-        b2Vec2 out = corners[i] - center;
-        out.Normalize();
-        int32_t vertex = AddVertex(soup, corners[i], -0.5f * DEPTH, out, 0.0f);
-        AddVertex(soup, corners[i], 0.5f * DEPTH, out, 0.0f);
-        first = i == 0 ? vertex : first;
-    }
-    for (int32_t i = 0; i < count; ++i) {
-        int32_t from = first + 2 * i, to = first + 2 * ((i + 1) % count);
-        AddTriangle(soup, from, from + 1, to + 1, color);
-        AddTriangle(soup, from, to + 1, to, color);
-    }
-}
-
-void AddFlatSides(Soup& soup, const std::vector<b2Vec2>& corners, const Color& color)
-{
-    for (size_t i = 0; i < corners.size(); ++i) {
-        b2Vec2 from = corners[i], to = corners[(i + 1) % corners.size()], out(to.y - from.y, from.x - to.x);
-        out.Normalize();
-        int32_t vertex = AddVertex(soup, from, -0.5f * DEPTH, out, 0.0f);
-        AddVertex(soup, from, 0.5f * DEPTH, out, 0.0f);
-        AddVertex(soup, to, 0.5f * DEPTH, out, 0.0f);
-        AddVertex(soup, to, -0.5f * DEPTH, out, 0.0f);
-        AddTriangle(soup, vertex, vertex + 1, vertex + 2, color);
-        AddTriangle(soup, vertex, vertex + 2, vertex + 3, color);
-    }
-}
-
-void AddFront(Soup& soup, const std::vector<b2Vec2>& corners, const Color& color)
-{
-    int32_t first = 0;
-    for (size_t i = 0; i < corners.size(); ++i) {
-        int32_t vertex = AddVertex(soup, corners[i], -0.5f * DEPTH, b2Vec2_zero, -1.0f);
-        first = i == 0 ? vertex : first;
-        if (i >= 2) {
-            AddTriangle(soup, first, vertex - 1, vertex, color);
-        }
-    }
-}
-
-void AddBodyShape(Soup& soup, const b2Body& body)
+void AddBodyShape(Canvas* canvas, const b2Body& body, Outlines* outlines)
 {
     const b2Shape* shape = body.GetFixtureList()->GetShape();
-    std::vector<b2Vec2> corners;
-    if (shape->GetType() == b2Shape::e_polygon) {
+    bool isRound = shape->GetType() == b2Shape::e_circle;
+    const b2Vec2& at = body.GetPosition();
+    CanvasBody seen = MakeBody(isRound ? CANVAS_CYLINDER : CANVAS_PRISM, at.x / UNITS, 0.0f, at.y / UNITS,
+                               body.GetTransform().q, isRound ? GREEN : CARDBOARD);
+    seen.height = DEPTH;
+    seen.radius = shape->m_radius / UNITS;
+    if (!isRound) {
         const b2PolygonShape* polygon = static_cast<const b2PolygonShape*>(shape);
+        std::vector<float> outline;
         for (int32 i = 0; i < polygon->m_count; ++i) {
-            corners.push_back(body.GetWorldPoint(polygon->m_vertices[i]));
+            outline.insert(outline.end(), { polygon->m_vertices[i].x / UNITS, polygon->m_vertices[i].y / UNITS });
         }
-        AddFront(soup, corners, CARDBOARD);
-        AddFlatSides(soup, corners, CARDBOARD);
-        return;
+        outlines->push_back(outline);
+        seen.outline = outlines->back().data();
+        seen.outlineCount = polygon->m_count;
     }
-    const int sides = 48;
-    for (int i = 0; i < sides; ++i) {
-        b2Rot turn(2.0f * b2_pi * static_cast<float>(i) / sides);
-        corners.push_back(body.GetWorldPoint(b2Vec2(shape->m_radius * turn.c, shape->m_radius * turn.s)));
-    }
-    AddFront(soup, corners, GREEN);
-    AddRoundSides(soup, corners, body.GetPosition(), GREEN);
+    Canvas_AddBody(canvas, &seen);
 }
 
-void AddSheet(Soup& soup, const kiriMesh& mesh)
+bool Paint(Simulation& simulation, Canvas* canvas, EdgeLines* edges, Image* image)
 {
-    soup.positions.assign(mesh.positions, mesh.positions + 3 * mesh.vertexCount);
-    soup.normals.assign(mesh.normals, mesh.normals + 3 * mesh.vertexCount);
-    soup.restPositions.assign(mesh.restPositions, mesh.restPositions + 2 * mesh.vertexCount);
-    for (int32_t i = 0; i < mesh.triangleCount; ++i) {
-        const int32_t* corner = mesh.indices + 3 * i;
-        float u = 0.0f;
-        for (int k = 0; k < 3; ++k) {
-            u += mesh.restPositions[2 * corner[k]] / 3.0f;
-        }
-        bool odd = static_cast<int>(u * 20.0f) % 2 != 0;
-        AddTriangle(soup, corner[0], corner[1], corner[2], odd ? BLUE : LIGHT_BLUE);
-    }
-}
-
-bool Paint(Simulation& simulation, Painter* painter, Image* image)
-{
+    static const uint8_t stripes[12] = { 255, 255, 255, 190, 205, 215, 255, 255, 255, 190, 205, 215 };
+    const CanvasCamera camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.2f }, 22.0f, 0.0f };
+    const CanvasTexture texture = { stripes, 2, 2, { 0.0f, 0.0f }, 0.1f, 0.1f, 0 };
     kiriMesh mesh;
-    if (kiriSheet_GetMesh(simulation.world, simulation.sheet, &mesh) != KIRI_OK) {
+    if (kiriSheet_GetMesh(simulation.world, simulation.sheet, &mesh) != KIRI_OK || !EdgeLines_Find(edges, &mesh)) {
         return false;
     }
-    Soup soup;
-    AddSheet(soup, mesh);
-    for (b2Body* body = simulation.bodies.GetBodyList(); body != nullptr; body = body->GetNext()) {
+    CanvasSheet sheet = CanvasSheet();
+    sheet.positions = mesh.positions;
+    sheet.normals = mesh.normals;
+    sheet.restPositions = mesh.restPositions;
+    sheet.indices = mesh.indices;
+    sheet.triangleCount = mesh.triangleCount;
+    sheet.edges = *edges;
+    sheet.texture = &texture;
+    sheet.front = sheet.back = BLUE;
+    sheet.lip = PALE;
+    sheet.rim = INK;
+    Canvas_Begin(canvas, &camera, SKY, HAZE);
+    Canvas_SetFloor(canvas, -0.002f, GROUND);
+    Canvas_AddSheet(canvas, &sheet);
+    Outlines outlines;
+    for (const b2Body* body = simulation.bodies.GetBodyList(); body != nullptr; body = body->GetNext()) {
         if (body->GetType() == b2_dynamicBody) {
-            AddBodyShape(soup, *body);
+            AddBodyShape(canvas, *body, &outlines);
         }
     }
-    View view = View();
-    view.camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.2f }, 22.0f };
-    view.mesh.positions = soup.positions.data();
-    view.mesh.normals = soup.normals.data();
-    view.mesh.restPositions = soup.restPositions.data();
-    view.mesh.indices = soup.indices.data();
-    view.mesh.vertexCount = static_cast<int32_t>(soup.positions.size() / 3);
-    view.mesh.triangleCount = static_cast<int32_t>(soup.indices.size() / 3);
-    view.colors = soup.colors.data();
-    view.blades = simulation.blade.data();
-    view.bladeCount = simulation.cutting ? 1 : 0;
-    return Painter_Paint(painter, &view, image);
+    if (simulation.cutting) {
+        CanvasBody knife = MakeBody(CANVAS_CYLINDER, simulation.blade[0], simulation.blade[1],
+                                    simulation.blade[2] + 0.06f, b2Rot(0.0f), STEEL);
+        const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+        std::copy(upright, upright + 9, knife.rotation);
+        knife.radius = 0.008f;
+        knife.height = 0.12f;
+        Canvas_AddBody(canvas, &knife);
+    }
+    return Canvas_Finish(canvas, image);
 }
 
 /* Pictures one after the other in rows of four, at half their size. */
@@ -361,8 +304,9 @@ bool ReadOptions(int count, char** words, Options* options)
     return count % 2 == 1 && options->ticks > 0 && options->every > 0 && options->width > 0 && options->height > 0;
 }
 
-bool Run(Simulation& simulation, const Options& options, Painter* painter, std::vector<Image>* pictures)
+bool Run(Simulation& simulation, const Options& options, Canvas* canvas, std::vector<Image>* pictures)
 {
+    EdgeLines edges = EdgeLines();
     for (int tick = 0; tick < options.ticks; ++tick) {
         kiriResult result = Tick(simulation, tick);
         if (result < 0) {
@@ -374,13 +318,14 @@ bool Run(Simulation& simulation, const Options& options, Painter* painter, std::
             std::snprintf(name, sizeof name, "/%04d.png", tick + 1);
             pictures->push_back(Image());
             Image* picture = &pictures->back();
-            if (!Image_Create(picture, options.width, options.height) || !Paint(simulation, painter, picture) ||
+            if (!Image_Create(picture, options.width, options.height) || !Paint(simulation, canvas, &edges, picture) ||
                 !Image_WritePng(picture, (options.output + name).c_str())) {
                 std::fprintf(stderr, "cannot write %s%s\n", options.output.c_str(), name);
                 return false;
             }
         }
     }
+    EdgeLines_Free(&edges);
     return pictures->empty() || WriteContactSheet(*pictures, options);
 }
 
@@ -396,9 +341,9 @@ int main(int count, char** words)
     Simulation simulation;
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
-    Painter* painter = Painter_Create(options.width, options.height);
+    Canvas* canvas = Canvas_Create(options.width, options.height, 3, nullptr);
     std::vector<Image> pictures;
-    bool good = painter != nullptr && MakeFolders(options.output);
+    bool good = canvas != nullptr && MakeFolders(options.output);
     if (!good) {
         std::fprintf(stderr, "no pictures of this size, or no folder %s\n", options.output.c_str());
     } else if (kiriCreateWorld(&def, &simulation.world) != KIRI_OK || AddStrip(simulation) != KIRI_OK) {
@@ -409,7 +354,7 @@ int main(int count, char** words)
         KiriBox2dDef how;
         how.unitsPerMetre = UNITS;
         simulation.touching.reset(new KiriBox2d(simulation.world, &simulation.bodies, how));
-        good = Run(simulation, options, painter, &pictures);
+        good = Run(simulation, options, canvas, &pictures);
     }
     uint64_t hash = 0;
     if (good && kiriWorld_GetStateHash(simulation.world, &hash) == KIRI_OK) {
@@ -419,8 +364,8 @@ int main(int count, char** words)
     for (Image& picture : pictures) {
         Image_Free(&picture);
     }
-    if (painter != nullptr) {
-        Painter_Destroy(painter);
+    if (canvas != nullptr) {
+        Canvas_Destroy(canvas);
     }
     simulation.touching.reset();
     kiriDestroyWorld(simulation.world);

@@ -1,5 +1,4 @@
-#include "canvas_parts.h"
-#include "game.h"
+#include "../canvas_parts.h"
 
 #include <GL/gl.h>
 #include <SDL2/SDL_ttf.h>

@@ -11,7 +11,7 @@ enum {
     GATHER_TICKS = GAME_RATE     /* rings move on the rail */
 };
 
-const GameCamera curtainCamera = { { 0.25f, -3.55f, 1.62f }, { 0.0f, 0.0f, 0.86f }, 34.0f, 0.0f };
+const CanvasCamera curtainCamera = { { 0.25f, -3.55f, 1.62f }, { 0.0f, 0.0f, 0.86f }, 34.0f, 0.0f };
 const float curtainRail = 1.66f;
 const float basketSize[3] = { 0.56f, 0.56f, 0.18f };
 const float ballRadius = 0.17f, ballPlace[3] = { 0.86f, -0.18f, 0.17f };

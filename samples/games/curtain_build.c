@@ -89,8 +89,12 @@ bool Curtain_AddCloth(Curtain* curtain, Cloth* cloth, int32_t layer)
         return false;
     }
     Level_Paint(level, curtain->clothsMade, cloth->rgb);
-    cloth->texture = (CanvasTexture){ cloth->rgb,   TEXTURE_SIZE,  TEXTURE_SIZE,
-                                      level->width, level->height, (uint32_t)++curtain->clothsMade };
+    cloth->texture = (CanvasTexture){ .rgb = cloth->rgb,
+                                      .columns = TEXTURE_SIZE,
+                                      .rows = TEXTURE_SIZE,
+                                      .width = level->width,
+                                      .height = level->height,
+                                      .revision = (uint32_t)++curtain->clothsMade };
     kiriFillRectangle(level->width, level->height, COLUMNS, ROWS, rest, indices);
     kiriSheetDef def;
     FillSheetDef(curtain, depth, &def);

@@ -35,7 +35,7 @@ static bool LookAt(const Curtain* curtain, float u, float v, float* x, float* y)
     const float restPoint[2] = { u, v };
     kiriPointState point;
     return kiriSheet_GetPoint(curtain->world, cloth->sheet, restPoint, &point) == KIRI_OK &&
-           GameCamera_Project(&curtainCamera, point.position, x, y);
+           CanvasCamera_Project(&curtainCamera, point.position, x, y);
 }
 
 /* Across a lower corner of the curtain, from outside to outside. */

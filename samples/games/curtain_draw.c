@@ -132,7 +132,7 @@ static void DrawNotes(Canvas* canvas, const Curtain* curtain)
     for (int32_t i = 0; i < MAX_NOTES; i++) {
         const Note* note = &curtain->notes[i];
         float age = (float)(curtain->tick - note->since) / GAME_RATE, x, y;
-        if (note->since > 0 && age < 1.6f && GameCamera_Project(&curtainCamera, note->place, &x, &y)) {
+        if (note->since > 0 && age < 1.6f && CanvasCamera_Project(&curtainCamera, note->place, &x, &y)) {
             Color color = ink;
             color.alpha = fminf(1.0f, 3.2f - 2.0f * age);
             Canvas_AddText(canvas, x, fmaxf(y - 20.0f, 150.0f) - 30.0f * age, 28.0f, 0.5f, color, note->text);

@@ -144,7 +144,7 @@ void Curtain_Event(void* game, const GameEvent* event)
         return;
     }
     float origin[3], direction[3];
-    GameCamera_GetRay(&curtainCamera, (float)event->x, (float)event->y, origin, direction);
+    CanvasCamera_GetRay(&curtainCamera, (float)event->x, (float)event->y, origin, direction);
     curtain->pointers[event->pointer].x = event->x;
     curtain->pointers[event->pointer].y = event->y;
     if (event->type == GAME_DOWN) {

@@ -170,6 +170,7 @@ static float GetDistance(const float* corners, const float point[2], float* alon
     return inside ? -least : least;
 }
 
+/* Chalk lies inside of the outline: a cut along it leaves none on the curtain. */
 static void PaintMark(const Mark* mark, const float* corners, float u, float v, float color[3])
 {
     float along = 0.0f, du = u - mark->middle[0], dv = v - mark->middle[1];
@@ -180,7 +181,7 @@ static void PaintMark(const Mark* mark, const float* corners, float u, float v, 
     if (distance < 0.0f) {
         Mix(color, gold, 0.55f);
     }
-    if (fabsf(distance) < 0.0055f && fmodf(along, 0.036f) < 0.022f) {
+    if (distance > -0.01f && distance < 0.0f && fmodf(along, 0.036f) < 0.022f) {
         Mix(color, chalk, 0.95f);
     }
 }

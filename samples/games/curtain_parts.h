@@ -173,7 +173,7 @@ bool Curtain_Undo(Curtain* curtain);
 
 /* ---- The stage -------------------------------------------------------------------------------------------------- */
 
-extern const GameCamera curtainCamera;
+extern const CanvasCamera curtainCamera;
 extern const float curtainRail;                 /* m: how high it is */
 extern const float basketSize[3];               /* m, outside */
 extern const float basketY;                     /* m: below the curtain; a light piece glides to either side of it */

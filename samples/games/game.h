@@ -2,7 +2,7 @@
 #ifndef GAME_H
 #define GAME_H
 
-#include "canvas.h"
+#include "../canvas.h"
 #include "sound.h"
 
 #include "kiri/kiri.h"
@@ -10,9 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Ticks a second; and the picture that places of events and of the head-up display refer to, whatever its pixels are:
-   (0, 0) is its top left corner. */
-enum { GAME_RATE = 60, GAME_WIDTH = 960, GAME_HEIGHT = 720 };
+/* Ticks a second; and the picture that places of events refer to: that of the overlay. */
+enum { GAME_RATE = 60, GAME_WIDTH = CANVAS_WIDTH, GAME_HEIGHT = CANVAS_HEIGHT };
 
 #define GAME_DT (1.0f / (float)GAME_RATE)
 

@@ -19,7 +19,7 @@ const int LEVELS = 6, SUBSTEPS = 2;
 b2Vec2 PlaceOf(const NetGame& game, const GameEvent& event)
 {
     float origin[3], direction[3];
-    GameCamera_GetRay(&game.camera, static_cast<float>(event.x), static_cast<float>(event.y), origin, direction);
+    CanvasCamera_GetRay(&game.camera, static_cast<float>(event.x), static_cast<float>(event.y), origin, direction);
     float way = -origin[1] / direction[1];
     return b2Vec2(origin[0] + way * direction[0], origin[2] + way * direction[2]);
 }

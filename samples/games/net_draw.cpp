@@ -147,14 +147,14 @@ void DrawBody(Canvas* canvas, const NetBody& body, float alpha, float seconds)
 }
 
 /* A frame with corners, in the colour of its crate; it fills while the crate rests there. */
-void DrawGoal(Canvas* canvas, const GameCamera& camera, const NetBody& goal)
+void DrawGoal(Canvas* canvas, const CanvasCamera& camera, const NetBody& goal)
 {
     const float* value = goal.item->value;
     const float low[3] = { value[0] - 0.5f * value[2], 0.0f, value[1] - 0.5f * value[3] };
     const float high[3] = { low[0] + value[2], 0.0f, low[2] + value[3] };
     float left, right, top, bottom;
-    GameCamera_Project(&camera, low, &left, &bottom);
-    GameCamera_Project(&camera, high, &right, &top);
+    CanvasCamera_Project(&camera, low, &left, &bottom);
+    CanvasCamera_Project(&camera, high, &right, &top);
     float done = std::min(1.0f, static_cast<float>(goal.restTicks) / NET_REST_TICKS);
     Color color = done >= 1.0f ? GOOD : Mix(ColorOf(value[4]), INK, 0.15f);
     Canvas_AddRectangle(canvas, left, top, right - left, bottom - top, Fade(color, 0.16f));
@@ -196,7 +196,7 @@ void DrawTrail(const NetGame& game, Canvas* canvas)
         for (size_t k = 0; k < 2; ++k) {
             const b2Vec2& place = game.trail[i - 1 + k];
             const float point[3] = { place.x, 0.0f, place.y };
-            GameCamera_Project(&game.camera, point, &ends[2 * k], &ends[2 * k + 1]);
+            CanvasCamera_Project(&game.camera, point, &ends[2 * k], &ends[2 * k + 1]);
         }
         float share = static_cast<float>(i) / static_cast<float>(game.trail.size());
         Canvas_AddStroke(canvas, ends, 2, 2.0f + 5.0f * share, Fade(BLADE, 0.9f * share));
@@ -228,7 +228,7 @@ void DrawHud(const NetGame& game, Canvas* canvas)
 
 } // namespace
 
-GameCamera NetGame_MakeCamera()
+CanvasCamera NetGame_MakeCamera()
 {
     const float fieldOfView = 16.0f, away = 0.5f * NET_HEIGHT / std::tan(0.5f * fieldOfView * b2_pi / 180.0f);
     return { { 0.0f, -away, 1.12f }, { 0.0f, 0.0f, 1.12f }, fieldOfView, NET_HEIGHT };

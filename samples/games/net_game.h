@@ -42,7 +42,7 @@ struct NetGame : b2ContactListener {
     std::vector<NetSheet> sheets;
     std::vector<kiriSheet> handles; /* the same, for KiriBox2d */
     std::vector<b2Vec2> pegs;       /* m */
-    GameCamera camera;
+    CanvasCamera camera;
 
     kiriBlade blade = 0;
     bool isPressed = false, isReleased = false, hasCut = false;
@@ -74,7 +74,7 @@ void NetGame_Keep(NetGame* game);
 bool NetGame_Undo(NetGame* game);
 
 /* net_draw.cpp */
-GameCamera NetGame_MakeCamera();
+CanvasCamera NetGame_MakeCamera();
 void NetGame_Draw(NetGame* game, Canvas* canvas, float alpha);
 
 /* net.cpp */

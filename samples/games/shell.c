@@ -5,6 +5,8 @@
 #include "script.h"
 #include "window.h"
 
+#include "../canvas_parts.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -357,7 +359,7 @@ static bool OpenPictures(Shell* shell)
         return true;
     }
     int32_t oversampling = options->oversampling > 0 ? options->oversampling : options->headless ? 2 : 1;
-    shell->canvas = Canvas_Create(options->width, options->height, oversampling);
+    shell->canvas = Canvas_Create(options->width, options->height, oversampling, OverlayText_Draw);
     if (shell->canvas == NULL || !Image_Create(&shell->image, options->width, options->height)) {
         fprintf(stderr, "cannot draw pictures of %d x %d\n", options->width, options->height);
         return false;

@@ -1,7 +1,5 @@
 #include "track.h"
 
-#include "../edges.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +15,7 @@ void Track_Free(Track* track)
     free(track->before);
     free(track->restBefore);
     free(track->between);
-    free(track->lips);
+    EdgeLines_Free(&track->edges);
     Track_Init(track, 0);
 }
 
@@ -48,38 +46,6 @@ bool Track_BeforeTick(Track* track, const kiriWorld* world)
     return true;
 }
 
-/* Lips and rims lie in one block. */
-static bool FindEdges(Track* track, const kiriMesh* mesh)
-{
-    if (track->lips != NULL && track->revision == mesh->revision) {
-        return true;
-    }
-    Edge* edges = malloc(sizeof(Edge) * 3 * (size_t)mesh->triangleCount);
-    int32_t count = edges != NULL ? Edges_FindOpen(edges, mesh) : 0;
-    int32_t* ends = edges != NULL ? realloc(track->lips, sizeof(int32_t) * 2 * (size_t)(count + 1)) : NULL;
-    if (ends == NULL) {
-        free(edges);
-        return false;
-    }
-    track->lips = ends;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int32_t i = 0; i < count; i++) {
-            if (edges[i].cut == (pass == 0)) {
-                *ends++ = edges[i].a;
-                *ends++ = edges[i].b;
-            }
-        }
-        if (pass == 0) {
-            track->rims = ends;
-            track->lipCount = (int32_t)(ends - track->lips) / 2;
-        }
-    }
-    track->rimCount = count - track->lipCount;
-    track->revision = mesh->revision;
-    free(edges);
-    return true;
-}
-
 /* The same place of the rest plane: the same vertex, unless indices moved, and then one of the other lip at worst. */
 static bool WasThere(const Track* track, const kiriMesh* mesh, int32_t vertex)
 {
@@ -90,8 +56,14 @@ static bool WasThere(const Track* track, const kiriMesh* mesh, int32_t vertex)
 bool Track_Get(Track* track, const kiriWorld* world, float alpha, CanvasSheet* sheet)
 {
     kiriMesh mesh;
-    if (kiriSheet_GetMesh(world, track->sheet, &mesh) != KIRI_OK || !FindEdges(track, &mesh)) {
+    if (kiriSheet_GetMesh(world, track->sheet, &mesh) != KIRI_OK) {
         return false;
+    }
+    if (track->edges.lips == NULL || track->revision != mesh.revision) {
+        if (!EdgeLines_Find(&track->edges, &mesh)) {
+            return false;
+        }
+        track->revision = mesh.revision;
     }
     if (mesh.vertexCount > track->betweenCapacity) {
         if (!Reserve(&track->between, 3 * (mesh.vertexCount + mesh.vertexCount / 2))) {
@@ -111,10 +83,7 @@ bool Track_Get(Track* track, const kiriWorld* world, float alpha, CanvasSheet* s
     sheet->restPositions = mesh.restPositions;
     sheet->indices = mesh.indices;
     sheet->triangleCount = mesh.triangleCount;
-    sheet->lips = track->lips;
-    sheet->lipCount = track->lipCount;
-    sheet->rims = track->rims;
-    sheet->rimCount = track->rimCount;
+    sheet->edges = track->edges;
     return true;
 }
 

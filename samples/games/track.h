@@ -2,7 +2,8 @@
 #ifndef TRACK_H
 #define TRACK_H
 
-#include "canvas.h"
+#include "../canvas.h"
+#include "../edges.h"
 
 #include "kiri/kiri.h"
 
@@ -16,8 +17,7 @@ typedef struct Track {
     int32_t beforeCount, beforeCapacity;
     float* between; /* where they are drawn */
     int32_t betweenCapacity;
-    int32_t *lips, *rims; /* open edges of the mesh with `revision`, in one block */
-    int32_t lipCount, rimCount;
+    EdgeLines edges; /* of the mesh with `revision` */
     uint32_t revision;
 } Track;
 

@@ -1,10 +1,11 @@
-/* A picture of a game, drawn without a window (../offscreen.h), as ../draw.h draws scenes. A game adds what there
-   is to see, in any order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until
-   then. */
+/* Draws the pictures of all samples and games, without a window (offscreen.h). A program adds what there is to see, in any
+   order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until then. */
 #ifndef CANVAS_H
 #define CANVAS_H
 
-#include "../image.h"
+#include "edges.h"
+#include "image.h"
+#include "lines.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,29 +14,32 @@
 extern "C" {
 #endif
 
+/* The picture that places and widths of the overlay refer to, whatever its pixels are: (0, 0) is its top left corner. */
+enum { CANVAS_WIDTH = 960, CANVAS_HEIGHT = 720 };
+
 typedef struct Color {
     float red, green, blue, alpha;
 } Color;
 
 /* Looks from eye to target; up is +z. */
-typedef struct GameCamera {
+typedef struct CanvasCamera {
     float eye[3], target[3]; /* m */
     float fieldOfView;       /* degrees, from bottom to top; 0: parallel rays, and */
     float height;            /* m: what the picture shows from bottom to top at the target */
-} GameCamera;
+} CanvasCamera;
 
-/* A point that moves over the picture looks along this ray; x, y as in game.h, direction a unit vector. */
-void GameCamera_GetRay(const GameCamera* camera, float x, float y, float origin[3], float direction[3]);
+/* A point that moves over the picture looks along this ray; x, y are places of the overlay, direction a unit vector. */
+void CanvasCamera_GetRay(const CanvasCamera* camera, float x, float y, float origin[3], float direction[3]);
 
 /* Where a point (m) is seen; false behind the camera. */
-bool GameCamera_Project(const GameCamera* camera, const float point[3], float* x, float* y);
+bool CanvasCamera_Project(const CanvasCamera* camera, const float point[3], float* x, float* y);
 
-/* Pixels over the rest plane, from (0, 0) to width x height metres, the first row at v = 0. */
+/* Pixels over the rest plane, from `origin` over width x height metres, the first row at the lowest v; they repeat. */
 typedef struct CanvasTexture {
     const uint8_t* rgb;
-    int32_t columns, rows; /* powers of two */
-    float width, height;   /* m */
-    uint32_t revision;     /* another number when the pixels have changed */
+    int32_t columns, rows;
+    float origin[2], width, height; /* m */
+    uint32_t revision;              /* another number when the pixels have changed */
 } CanvasTexture;
 
 typedef struct CanvasSheet {
@@ -44,13 +48,10 @@ typedef struct CanvasSheet {
     const float* restPositions; /* 2 a vertex, m */
     const int32_t* indices;     /* 3 a triangle */
     int32_t triangleCount;
-    const int32_t* lips; /* 2 a line: vertices at the ends of edges that a cut has laid open */
-    int32_t lipCount;
-    const int32_t* rims; /* and of those of the outline */
-    int32_t rimCount;
+    EdgeLines edges;              /* a cut that has not opened is a dark line with edges of the lips' colour */
     const CanvasTexture* texture; /* or null: plain */
     Color front, back, lip, rim;  /* with a texture `front` and `back` tint it */
-    float lineWidth;              /* of lips and rims, in units of the game's picture; 0: 1.5 */
+    float lineWidth;              /* of rims, in units of the overlay; 0: 1.5 */
 } CanvasSheet;
 
 /* As kiriObstacleType has them. */
@@ -68,13 +69,18 @@ typedef struct CanvasBody {
 
 typedef struct Canvas Canvas;
 
+struct OverlayText;
+
+/* Draws a text into the current picture with `scale` pixels a unit of the overlay. */
+typedef void CanvasTextDrawer(const struct OverlayText* text, float scale);
+
 /* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or where no
-   OpenGL can do this size. One canvas at a time. */
-Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling);
+   OpenGL can do this size. One canvas at a time. Without a drawer there are no texts. */
+Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, CanvasTextDrawer* drawText);
 void Canvas_Destroy(Canvas* canvas);
 
 /* Begins a picture: nothing to see but a background that goes from top to bottom. */
-void Canvas_Begin(Canvas* canvas, const GameCamera* camera, Color top, Color bottom);
+void Canvas_Begin(Canvas* canvas, const CanvasCamera* camera, Color top, Color bottom);
 
 /* Shadows fall on the floor z = height, or on a wall y = depth behind all. Without these there are none. */
 void Canvas_SetFloor(Canvas* canvas, float height, Color color);
@@ -83,10 +89,13 @@ void Canvas_SetWall(Canvas* canvas, float depth, Color color);
 void Canvas_AddSheet(Canvas* canvas, const CanvasSheet* sheet);
 void Canvas_AddBody(Canvas* canvas, const CanvasBody* body);
 
-/* In the world; width in units of the game's picture. */
+/* In the world; width in units of the overlay. */
 void Canvas_AddLine(Canvas* canvas, const float from[3], const float to[3], float width, Color color);
 
-/* Over all else, in units of the game's picture; y grows downwards. A later one covers an earlier one. */
+/* Lines and points over all else in the world, or hidden by what is before them. */
+void Canvas_SetMarks(Canvas* canvas, const Lines* marks, bool isHidden);
+
+/* Over all else, in units of the overlay; y grows downwards. A later one covers an earlier one. */
 void Canvas_AddRectangle(Canvas* canvas, float left, float top, float width, float height, Color color);
 void Canvas_AddStroke(Canvas* canvas, const float* points, int32_t count, float width, Color color);
 void Canvas_AddDisc(Canvas* canvas, float x, float y, float radius, Color color);

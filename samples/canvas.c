@@ -1,7 +1,6 @@
 #include "canvas_parts.h"
-#include "game.h"
 
-#include "../offscreen.h"
+#include "offscreen.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,9 +8,9 @@
 
 enum { TEXTURES = 8 };
 
-static const float nearest = 0.05f, farthest = 60.0f;     /* m */
-static const float toLight[3] = { -0.35f, -0.45f, 1.0f }; /* as in draw.c */
-static const float toLamp[3] = { -0.22f, -1.0f, 0.42f };  /* before the wall */
+static const float nearest = 0.02f, farthest = 25.0f; /* in distances of the target from the eye */
+static const float toLight[3] = { -0.35f, -0.45f, 1.0f };
+static const float toLamp[3] = { -0.22f, -1.0f, 0.42f }; /* before the wall */
 
 typedef struct Line {
     float ends[2][3], width;
@@ -33,25 +32,28 @@ typedef struct TextureSlot {
 
 struct Canvas {
     Offscreen* offscreen;
+    CanvasTextDrawer* drawText;
     int32_t width, height, oversampling;
     GLuint shadowTextures[3]; /* of the grounds */
     TextureSlot textures[TEXTURES];
     int32_t nextTexture;
 
-    GameCamera camera;
+    CanvasCamera camera;
     Color top, bottom;
     Ground grounds[3]; /* across y: the wall; across z: the floor */
     CanvasSheet* sheets;
     CanvasBody* bodies;
     Line* lines;
     int32_t sheetCount, sheetCapacity, bodyCount, bodyCapacity, lineCount, lineCapacity;
+    Lines marks;
+    bool marksAreHidden;
     Overlay overlay;
     bool failed; /* for want of memory */
 };
 
 /* ---- What there is to see --------------------------------------------------------------------------------------- */
 
-Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling)
+Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, CanvasTextDrawer* drawText)
 {
     Canvas* canvas = calloc(1, sizeof(Canvas));
     if (canvas == NULL) {
@@ -60,6 +62,7 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling)
     canvas->width = width;
     canvas->height = height;
     canvas->oversampling = oversampling;
+    canvas->drawText = drawText;
     canvas->offscreen = Offscreen_Create(oversampling * width, oversampling * height);
     if (canvas->offscreen == NULL) {
         Canvas_Destroy(canvas);
@@ -71,6 +74,7 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling)
     }
     glEnable(GL_NORMALIZE);
     glEnable(GL_LINE_SMOOTH);
+    glEnable(GL_POINT_SMOOTH);
     return canvas;
 }
 
@@ -84,13 +88,14 @@ void Canvas_Destroy(Canvas* canvas)
     free(canvas);
 }
 
-void Canvas_Begin(Canvas* canvas, const GameCamera* camera, Color top, Color bottom)
+void Canvas_Begin(Canvas* canvas, const CanvasCamera* camera, Color top, Color bottom)
 {
     canvas->camera = *camera;
     canvas->top = top;
     canvas->bottom = bottom;
     memset(canvas->grounds, 0, sizeof canvas->grounds);
     canvas->sheetCount = canvas->bodyCount = canvas->lineCount = canvas->overlay.count = canvas->overlay.textCount = 0;
+    canvas->marks = (Lines){ .isShort = false };
     canvas->failed = canvas->overlay.failed = false;
 }
 
@@ -145,6 +150,12 @@ void Canvas_AddLine(Canvas* canvas, const float from[3], const float to[3], floa
     }
 }
 
+void Canvas_SetMarks(Canvas* canvas, const Lines* marks, bool isHidden)
+{
+    canvas->marks = *marks;
+    canvas->marksAreHidden = isHidden;
+}
+
 void Canvas_AddRectangle(Canvas* canvas, float left, float top, float width, float height, Color color)
 {
     const float corners[8] = { left, top, left + width, top, left + width, top + height, left, top + height };
@@ -170,24 +181,19 @@ void Canvas_AddText(Canvas* canvas, float x, float y, float size, float align, C
 
 /* ---- Camera and background -------------------------------------------------------------------------------------- */
 
-static void SetProjection(const GameCamera* camera, float aspect)
-{
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    float height = GameCamera_GetHalfHeight(camera, nearest);
-    if (camera->fieldOfView > 0.0f) {
-        glFrustum(-height * aspect, height * aspect, -height, height, nearest, farthest);
-    } else {
-        glOrtho(-height * aspect, height * aspect, -height, height, nearest, farthest);
-    }
-}
-
 static void SetCamera(const Canvas* canvas)
 {
-    const GameCamera* camera = &canvas->camera;
-    SetProjection(camera, (float)canvas->width / (float)canvas->height);
-    float right[3], up[3], back[3];
-    GameCamera_GetAxes(camera, right, up, back);
+    const CanvasCamera* camera = &canvas->camera;
+    float right[3], up[3], back[3], away = CanvasCamera_GetAxes(camera, right, up, back);
+    float height = CanvasCamera_GetHalfHeight(camera, nearest * away);
+    float width = height * (float)canvas->width / (float)canvas->height;
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    if (camera->fieldOfView > 0.0f) {
+        glFrustum(-width, width, -height, height, nearest * away, farthest * away);
+    } else {
+        glOrtho(-width, width, -height, height, nearest * away, farthest * away);
+    }
     Offscreen_LookFrom(camera->eye, right, up, back);
 }
 
@@ -216,11 +222,16 @@ static void DrawBackground(const Canvas* canvas)
 
 /* ---- Ground and shadows ----------------------------------------------------------------------------------------- */
 
-/* Half the side of the square around the target that shadows are kept of. */
-static float GetReach(const GameCamera* camera)
+/* The square of the ground that shadows are kept of: where the light throws what is around the target. Returns half its side. */
+static float GetShadowSquare(const Canvas* canvas, int axis, float middle[3])
 {
-    float right[3], up[3], back[3], away = GameCamera_GetAxes(camera, right, up, back);
-    return 1.5f * GameCamera_GetHalfHeight(camera, away);
+    const float* light = axis == 2 ? toLight : toLamp;
+    float right[3], up[3], back[3], away = CanvasCamera_GetAxes(&canvas->camera, right, up, back);
+    float way = (canvas->grounds[axis].at - canvas->camera.target[axis]) / light[axis];
+    for (int i = 0; i < 3; i++) {
+        middle[i] = canvas->camera.target[i] + way * light[i];
+    }
+    return 1.5f * CanvasCamera_GetHalfHeight(&canvas->camera, away);
 }
 
 static void DrawFlat(const Canvas* canvas)
@@ -236,12 +247,12 @@ static void DrawFlat(const Canvas* canvas)
     }
 }
 
-/* Projects all along the light onto the plane across `axis`, in a square around the target. */
-static void SetShadowMatrices(const Canvas* canvas, int axis, const float* light)
+/* Projects all along the light onto the plane across `axis`. */
+static void SetShadowMatrices(const Canvas* canvas, int axis)
 {
+    const float* light = axis == 2 ? toLight : toLamp;
     int u = 0, v = axis == 2 ? 1 : 2;
-    float reach = GetReach(&canvas->camera);
-    const float* middle = canvas->camera.target;
+    float middle[3], reach = GetShadowSquare(canvas, axis, middle);
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     glOrtho(-reach, reach, -reach, reach, -1.0, 1.0);
@@ -265,48 +276,50 @@ static void MakeShadow(const Canvas* canvas, int axis)
     glViewport(0, 0, size, size);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    SetShadowMatrices(canvas, axis, axis == 2 ? toLight : toLamp);
+    SetShadowMatrices(canvas, axis);
     glDisable(GL_DEPTH_TEST);
     glColor3f(1.0f, 1.0f, 1.0f);
     DrawFlat(canvas);
-    Offscreen_MakeShadow(canvas->shadowTextures[axis], size, size / 100 + 1, 2);
+    Offscreen_MakeShadow(canvas->shadowTextures[axis], size, size / 80 + 1, 3);
 }
 
 /* The ground fades into the background. */
 static void DrawGround(const Canvas* canvas, int axis)
 {
-    enum { SIDES = 64 };
+    enum { SIDES = 64, RINGS = 8 };
     const Ground* ground = &canvas->grounds[axis];
+    const float* middle = canvas->camera.target;
     int u = 0, v = axis == 2 ? 1 : 2;
-    float reach = 2.2f * GetReach(&canvas->camera), at[3];
+    float right[3], up[3], back[3], away = CanvasCamera_GetAxes(&canvas->camera, right, up, back), at[3];
+    float reach = 4.0f * CanvasCamera_GetHalfHeight(&canvas->camera, away);
     at[axis] = ground->at;
-    at[u] = canvas->camera.target[u];
-    at[v] = canvas->camera.target[v];
-    glBegin(GL_TRIANGLE_FAN);
-    SetColor(ground->color);
-    glVertex3fv(at);
-    for (int i = 0; i <= SIDES; i++) {
-        glColor4f(ground->color.red, ground->color.green, ground->color.blue, 0.0f);
-        at[u] = canvas->camera.target[u] + reach * cosf((float)i * 6.2831853f / SIDES);
-        at[v] = canvas->camera.target[v] + reach * sinf((float)i * 6.2831853f / SIDES);
-        glVertex3fv(at);
+    for (int ring = 0; ring < RINGS; ring++) {
+        glBegin(GL_QUAD_STRIP);
+        for (int i = 0; i < 2 * SIDES + 2; i++) {
+            float share = (float)(ring + i % 2) / RINGS, fade = 1.0f - share * share;
+            float angle = (float)(i / 2) * 6.2831853f / SIDES;
+            at[u] = middle[u] + share * reach * cosf(angle);
+            at[v] = middle[v] + share * reach * sinf(angle);
+            glColor4f(ground->color.red, ground->color.green, ground->color.blue, fade * fade);
+            glVertex3fv(at);
+        }
+        glEnd();
     }
-    glEnd();
 }
 
 static void DrawShadow(const Canvas* canvas, int axis)
 {
     int u = 0, v = axis == 2 ? 1 : 2;
-    float reach = GetReach(&canvas->camera), at[3];
+    float at[3], middle[3], reach = GetShadowSquare(canvas, axis, middle);
     at[axis] = canvas->grounds[axis].at;
     glBindTexture(GL_TEXTURE_2D, canvas->shadowTextures[axis]);
     glEnable(GL_TEXTURE_2D);
-    glColor4f(0.10f, 0.10f, 0.17f, axis == 2 ? 0.42f : 0.28f);
+    glColor4f(0.10f, 0.10f, 0.17f, axis == 2 ? 0.36f : 0.28f);
     glBegin(GL_QUADS);
     for (int i = 0; i < 4; i++) {
         float x = i == 1 || i == 2 ? 1.0f : 0.0f, y = i >= 2 ? 1.0f : 0.0f;
-        at[u] = canvas->camera.target[u] + reach * (2.0f * x - 1.0f);
-        at[v] = canvas->camera.target[v] + reach * (2.0f * y - 1.0f);
+        at[u] = middle[u] + reach * (2.0f * x - 1.0f);
+        at[v] = middle[v] + reach * (2.0f * y - 1.0f);
         glTexCoord2f(x, y);
         glVertex3fv(at);
     }
@@ -326,7 +339,7 @@ static void SetLights(void)
     glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
     glLightModelfv(GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.40f, 0.41f, 0.44f, 1.0f });
     glLightfv(GL_LIGHT0, GL_POSITION, (float[]){ toLight[0], toLight[1], toLight[2], 0.0f });
-    glLightfv(GL_LIGHT0, GL_DIFFUSE, (float[]){ 0.66f, 0.64f, 0.60f, 1.0f });
+    glLightfv(GL_LIGHT0, GL_DIFFUSE, (float[]){ 0.74f, 0.72f, 0.68f, 1.0f });
     glLightfv(GL_LIGHT1, GL_POSITION, (float[]){ 0.6f, -0.7f, -0.2f, 0.0f });
     glLightfv(GL_LIGHT1, GL_DIFFUSE, (float[]){ 0.36f, 0.38f, 0.42f, 1.0f });
     glLightfv(GL_LIGHT2, GL_POSITION, (float[]){ -0.3f, 1.0f, 0.4f, 0.0f });
@@ -361,6 +374,7 @@ static void SetTexture(Canvas* canvas, const CanvasTexture* texture)
     glMatrixMode(GL_TEXTURE);
     glLoadIdentity();
     glScalef(1.0f / texture->width, 1.0f / texture->height, 1.0f);
+    glTranslatef(-texture->origin[0], -texture->origin[1], 0.0f);
     glMatrixMode(GL_MODELVIEW);
     glEnable(GL_TEXTURE_2D);
 }
@@ -391,14 +405,56 @@ static void DrawSheet(Canvas* canvas, const CanvasSheet* sheet)
     ResetTexture();
 }
 
-static void DrawEdges(const CanvasSheet* sheet, float scale)
+/* Round at each end, so that lines join. */
+static void DrawEdges(const int32_t* ends, int32_t count, float width, Color color)
 {
-    glLineWidth((sheet->lineWidth > 0.0f ? sheet->lineWidth : 1.5f) * scale);
-    glVertexPointer(3, GL_FLOAT, 0, sheet->positions);
-    SetColor(sheet->lip);
-    glDrawElements(GL_LINES, 2 * sheet->lipCount, GL_UNSIGNED_INT, sheet->lips);
-    SetColor(sheet->rim);
-    glDrawElements(GL_LINES, 2 * sheet->rimCount, GL_UNSIGNED_INT, sheet->rims);
+    glLineWidth(width);
+    glPointSize(width);
+    SetColor(color);
+    glDrawElements(GL_LINES, 2 * count, GL_UNSIGNED_INT, ends);
+    glDrawElements(GL_POINTS, 2 * count, GL_UNSIGNED_INT, ends);
+}
+
+/* All lips, then all dark lines; none hides another. */
+static void DrawOpenEdges(const Canvas* canvas, float scale)
+{
+    glDepthMask(GL_FALSE);
+    for (int32_t i = 0; i < 2 * canvas->sheetCount; i++) {
+        const CanvasSheet* sheet = &canvas->sheets[i % canvas->sheetCount];
+        const EdgeLines* edges = &sheet->edges;
+        float width = (sheet->lineWidth > 0.0f ? sheet->lineWidth : 1.5f) * scale;
+        glVertexPointer(3, GL_FLOAT, 0, sheet->positions);
+        if (i < canvas->sheetCount) {
+            DrawEdges(edges->lips, edges->lipCount, 2.6f * width, sheet->lip);
+        } else {
+            DrawEdges(edges->lips, edges->lipCount, width, sheet->rim);
+            DrawEdges(edges->rims, edges->rimCount, width, sheet->rim);
+        }
+    }
+    glDepthMask(GL_TRUE);
+}
+
+static void DrawVertices(GLenum kind, const Vertices* vertices)
+{
+    glBegin(kind);
+    for (int32_t i = 0; i < vertices->count; i++) {
+        uint32_t color = vertices->data[i].color;
+        glColor3ub(color & 0xff, color >> 8 & 0xff, color >> 16 & 0xff);
+        glVertex3fv(vertices->data[i].position);
+    }
+    glEnd();
+}
+
+static void DrawMarks(const Canvas* canvas, float scale)
+{
+    if (!canvas->marksAreHidden) {
+        glDisable(GL_DEPTH_TEST);
+    }
+    glLineWidth(2.0f * scale);
+    glPointSize(7.0f * scale);
+    DrawVertices(GL_LINES, &canvas->marks.lines);
+    DrawVertices(GL_POINTS, &canvas->marks.points);
+    glEnable(GL_DEPTH_TEST);
 }
 
 static void DrawScene(Canvas* canvas, float scale)
@@ -416,9 +472,7 @@ static void DrawScene(Canvas* canvas, float scale)
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_LIGHTING);
-    for (int32_t i = 0; i < canvas->sheetCount; i++) {
-        DrawEdges(&canvas->sheets[i], scale);
-    }
+    DrawOpenEdges(canvas, scale);
     for (int32_t i = 0; i < canvas->lineCount; i++) {
         glLineWidth(canvas->lines[i].width * scale);
         SetColor(canvas->lines[i].color);
@@ -427,6 +481,7 @@ static void DrawScene(Canvas* canvas, float scale)
         glVertex3fv(canvas->lines[i].ends[1]);
         glEnd();
     }
+    DrawMarks(canvas, scale);
 }
 
 /* ---- The picture ------------------------------------------------------------------------------------------------ */
@@ -442,19 +497,22 @@ static void DrawCorners(const Overlay* overlay, int32_t first, int32_t end)
     }
 }
 
-static void DrawOverlay(const Overlay* overlay, float scale)
+static void DrawOverlay(const Canvas* canvas, float scale)
 {
+    const Overlay* overlay = &canvas->overlay;
     int32_t drawn = 0;
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
-    glOrtho(0.0, GAME_WIDTH, GAME_HEIGHT, 0.0, -1.0, 1.0);
+    glOrtho(0.0, CANVAS_WIDTH, CANVAS_HEIGHT, 0.0, -1.0, 1.0);
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     glDisable(GL_DEPTH_TEST);
     for (int32_t i = 0; i < overlay->textCount; i++) {
         DrawCorners(overlay, drawn, overlay->texts[i].after);
         drawn = overlay->texts[i].after;
-        OverlayText_Draw(&overlay->texts[i], scale);
+        if (canvas->drawText != NULL) {
+            canvas->drawText(&overlay->texts[i], scale);
+        }
     }
     DrawCorners(overlay, drawn, overlay->count);
     glEnable(GL_DEPTH_TEST);
@@ -482,7 +540,7 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
         return false;
     }
     int32_t columns = canvas->oversampling * canvas->width, rows = canvas->oversampling * canvas->height;
-    float scale = (float)rows / GAME_HEIGHT;
+    float scale = (float)rows / CANVAS_HEIGHT;
     glEnableClientState(GL_VERTEX_ARRAY);
     for (int axis = 1; axis < 3; axis++) {
         if (canvas->grounds[axis].isThere) {
@@ -495,7 +553,7 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
     glEnable(GL_BLEND);
     DrawGrounds(canvas);
     DrawScene(canvas, scale);
-    DrawOverlay(&canvas->overlay, scale);
+    DrawOverlay(canvas, scale);
     glDisable(GL_BLEND);
     glDisableClientState(GL_VERTEX_ARRAY);
     Offscreen_Shrink(canvas->offscreen, image, canvas->oversampling);

@@ -4,7 +4,7 @@
 
 #include "canvas.h"
 
-/* A growing array of flat shapes in units of the game's picture: triangles. */
+/* A growing array of flat shapes in units of the overlay: triangles. */
 typedef struct OverlayCorner {
     float x, y;
     Color color;
@@ -12,8 +12,8 @@ typedef struct OverlayCorner {
 
 enum { OVERLAY_MOST_TEXTS = 32 };
 
-typedef struct OverlayText {
-    int32_t after; /* corners that it covers */
+typedef struct OverlayText { /* places and sizes in units of the overlay */
+    int32_t after;           /* corners that it covers */
     float x, y, size, align;
     Color color;
     char words[96];
@@ -32,14 +32,14 @@ void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color col
 void Overlay_AddStroke(Overlay* overlay, const float from[2], const float to[2], float width, Color color);
 void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align, Color color, const char* text);
 
-/* Draws the text with the font into a picture with `scale` pixels a unit. */
+/* With a font of the system, for Canvas_Create (games/canvas_text.c). */
 void OverlayText_Draw(const OverlayText* text, float scale);
 
 /* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */
-float GameCamera_GetAxes(const GameCamera* camera, float right[3], float up[3], float back[3]);
+float CanvasCamera_GetAxes(const CanvasCamera* camera, float right[3], float up[3], float back[3]);
 
 /* Half of what the picture shows from bottom to top, m, so far from the eye. */
-float GameCamera_GetHalfHeight(const GameCamera* camera, float away);
+float CanvasCamera_GetHalfHeight(const CanvasCamera* camera, float away);
 
 /* Draws the body with the current matrix, colour and light. */
 void CanvasBody_Draw(const CanvasBody* body);

@@ -1,9 +1,8 @@
 #include "canvas_parts.h"
-#include "game.h"
 
 #include <math.h>
 
-float GameCamera_GetAxes(const GameCamera* camera, float right[3], float up[3], float back[3])
+float CanvasCamera_GetAxes(const CanvasCamera* camera, float right[3], float up[3], float back[3])
 {
     float length = 0.0f, flat;
     for (int i = 0; i < 3; i++) {
@@ -24,7 +23,7 @@ float GameCamera_GetAxes(const GameCamera* camera, float right[3], float up[3], 
     return length;
 }
 
-float GameCamera_GetHalfHeight(const GameCamera* camera, float away)
+float CanvasCamera_GetHalfHeight(const CanvasCamera* camera, float away)
 {
     if (camera->fieldOfView <= 0.0f) {
         return 0.5f * camera->height;
@@ -32,13 +31,14 @@ float GameCamera_GetHalfHeight(const GameCamera* camera, float away)
     return away * tanf(camera->fieldOfView * 0.5f * 3.14159265f / 180.0f);
 }
 
-void GameCamera_GetRay(const GameCamera* camera, float x, float y, float origin[3], float direction[3])
+void CanvasCamera_GetRay(const CanvasCamera* camera, float x, float y, float origin[3], float direction[3])
 {
     float right[3], up[3], back[3], length = 0.0f;
-    GameCamera_GetAxes(camera, right, up, back);
+    CanvasCamera_GetAxes(camera, right, up, back);
     bool parallel = camera->fieldOfView <= 0.0f;
-    float half = GameCamera_GetHalfHeight(camera, 1.0f);
-    float across = half * (2.0f * x - GAME_WIDTH) / GAME_HEIGHT, along = half * (GAME_HEIGHT - 2.0f * y) / GAME_HEIGHT;
+    float half = CanvasCamera_GetHalfHeight(camera, 1.0f);
+    float across = half * (2.0f * x - CANVAS_WIDTH) / CANVAS_HEIGHT,
+          along = half * (CANVAS_HEIGHT - 2.0f * y) / CANVAS_HEIGHT;
     for (int i = 0; i < 3; i++) {
         float aside = across * right[i] + along * up[i];
         origin[i] = camera->eye[i] + (parallel ? aside : 0.0f);
@@ -50,18 +50,18 @@ void GameCamera_GetRay(const GameCamera* camera, float x, float y, float origin[
     }
 }
 
-bool GameCamera_Project(const GameCamera* camera, const float point[3], float* x, float* y)
+bool CanvasCamera_Project(const CanvasCamera* camera, const float point[3], float* x, float* y)
 {
     float right[3], up[3], back[3], across = 0.0f, along = 0.0f, away = 0.0f;
-    GameCamera_GetAxes(camera, right, up, back);
+    CanvasCamera_GetAxes(camera, right, up, back);
     for (int i = 0; i < 3; i++) {
         float d = point[i] - camera->eye[i];
         across += d * right[i];
         along += d * up[i];
         away -= d * back[i];
     }
-    float half = GameCamera_GetHalfHeight(camera, away);
-    *x = 0.5f * (GAME_WIDTH + across / half * GAME_HEIGHT);
-    *y = 0.5f * (GAME_HEIGHT - along / half * GAME_HEIGHT);
+    float half = CanvasCamera_GetHalfHeight(camera, away);
+    *x = 0.5f * (CANVAS_WIDTH + across / half * CANVAS_HEIGHT);
+    *y = 0.5f * (CANVAS_HEIGHT - along / half * CANVAS_HEIGHT);
     return away > 0.0f;
 }
