@@ -492,39 +492,34 @@ static void TurnFades(kiriFades* fades, const kiriMat3* R)
     }
 }
 
-/* Allocates a new block for an array whose items need not be kept. */
-static float* Renewed(kiriMemory* memory, int32_t capacity)
+/* Replaces the arrays of sheets that the host may hold: the old ones get the owner `retired`, and the new ones are
+   unset until positions are written. Changes nothing on out of memory: false. */
+static bool RenewArrays(kiriSheetData* const* sheets, int32_t count, kiriMemory* retired)
 {
-    return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
-}
-
-static void Retire(kiriMemory* retired, float** array, float* renewed)
-{
-    if (*array != NULL) {
-        kiriMemory_Adopt(retired, *array);
+    enum { EACH = 3 };
+    kiriMemory made = kiriMemory_Like(retired);
+    float** blocks = kiriMemory_Alloc(&made, (int64_t)sizeof(float*) * (EACH * count + 1));
+    bool areAll = blocks != NULL;
+    for (int pass = 0; pass < 2; ++pass) { /* allocates, then replaces */
+        KIRI_TIMES_WHILE(areAll, i, EACH * count) {
+            kiriSeen* seen = &sheets[i / EACH]->seen;
+            kiriSurface* surface = &seen->surface;
+            kiriFloats* array = i % EACH == 0   ? &surface->positions
+                                : i % EACH == 1 ? &surface->normals
+                                                : &seen->pointPositions;
+            if (pass == 0) {
+                blocks[i] = kiriMemory_Alloc(&made, (int64_t)sizeof(float) * (array->capacity + 1));
+                areAll = blocks[i] != NULL;
+            } else {
+                kiriMemory_Adopt(retired, array->data);
+                kiriMemory_Adopt(&sheets[i / EACH]->shown, blocks[i]);
+                array->data = blocks[i];
+                surface->isWritten = surface->isSteady = false;
+            }
+        }
     }
-    *array = renewed;
-}
-
-/* Replaces the arrays that the host may hold: they get the owner `retired`, and the new ones are unset until positions are
-   written. Changes nothing on out of memory: false. */
-static bool RenewArrays(kiriSheetData* sheet, kiriMemory* retired)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    float* positions = Renewed(&sheet->shown, surface->positions.capacity);
-    float* normals = Renewed(&sheet->shown, surface->normals.capacity);
-    float* points = Renewed(&sheet->shown, sheet->seen.pointPositions.capacity);
-    if (positions == NULL || normals == NULL || points == NULL) {
-        kiriMemory_Free(&sheet->shown, positions);
-        kiriMemory_Free(&sheet->shown, normals);
-        kiriMemory_Free(&sheet->shown, points);
-        return false;
-    }
-    Retire(retired, &surface->positions.data, positions);
-    Retire(retired, &surface->normals.data, normals);
-    Retire(retired, &sheet->seen.pointPositions.data, points);
-    surface->isWritten = surface->isSteady = false;
-    return true;
+    kiriMemory_FreeAll(&made);
+    return areAll;
 }
 
 kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3])
@@ -536,7 +531,7 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     KIRI_CHECK(kiriCall_KeepsPlane(data, kiriMat3_Mul(R, data->settings.mechanics.axes.d)),
                "rotation turns a planar sheet out of its plane");
     KIRI_CHECK(FitsCarried(data, &R, t), "floats cannot hold what comes of it");
-    KIRI_REQUIRE(RenewArrays(data, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    KIRI_REQUIRE(RenewArrays(&data, 1, &world->retired), KIRI_ERROR_MEMORY, NULL);
     KIRI_EACH(kiriFrameData, frame, data->frames) {
         CarryFrame(frame, &R, t, data->settings.mechanics.model == KIRI_MODEL_LINKS);
         if (frame->held) {
@@ -716,18 +711,10 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
         KIRI_RETURN(KIRI_OK);
     }
     KIRI_CHECK(FitsShift(world, to), "floats cannot hold what comes of it");
-    /* Arrays that the host may hold are replaced, for all sheets or for none. */
-    int32_t done = 0;
-    while (done < world->sheets.count && RenewArrays(world->sheets.data[done], &world->retired)) {
-        ++done;
+    KIRI_REQUIRE(RenewArrays(world->sheets.data, world->sheets.count, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        ShiftSheet(sheet, to);
     }
-    KIRI_ASSERT(done <= world->sheets.count);
-    bool areAll = done == world->sheets.count;
-    const kiriVec3 none = { 0 };
-    KIRI_TIMES(i, done) {
-        ShiftSheet(world->sheets.data[i], areAll ? to : none);
-    }
-    KIRI_REQUIRE(areAll, KIRI_ERROR_MEMORY, NULL);
     KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
         obstacle->position = kiriVec3_Sub(obstacle->position, to);
         obstacle->lower = kiriVec3_Sub(obstacle->lower, to);
