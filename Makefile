@@ -609,6 +609,8 @@ $(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_O
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lSDL2_ttf -lSDL2 -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
+$(addprefix $(BUILD)/tests/test_,api callbacks lifetimes record refusals): $(BUILD)/tests/every_call.c.o
+
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 
 $(BUILD)/tests/test_quality: $(BUILD)/tests/sweep.c.o

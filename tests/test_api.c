@@ -1,5 +1,5 @@
 /* Bad input: every function refuses it with the right code and one line, and the world stays as it was. */
-#include "host.h"
+#include "every_call.h"
 
 #include <fenv.h>
 
@@ -58,121 +58,6 @@ static void CheckRefused(Host* host, Before before, kiriResult result, kiriResul
             (values)[entry / 3] = kept;                                                                                \
         }                                                                                                              \
     } while (0)
-
-/* A world with something of everything in it. */
-typedef struct Fixture {
-    Host host;
-    kiriSheet sheet;
-    kiriCut cut;
-    kiriFrame frame;
-    kiriPin pin;
-} Fixture;
-
-static Host* Setup(Fixture* f)
-{
-    Host* host = &f->host;
-    kiriSheetDef def = Host_SmallDef();
-    float start[2] = { -1.0f, 0.5f };
-    int32_t frames;
-    Host_Start(host);
-    f->sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
-    f->pin = Host_Pin(host, f->sheet, 0.3f, 0.9f, 0.0f, 0.0f, 0.0f);
-    OK(kiriBeginCut(host->world, f->sheet, start, &f->cut));
-    OK(kiriSheet_GetFrames(host->world, f->sheet, &f->frame, 1, &frames));
-    OK(Host_Tick(host, 0.01f, 1));
-    return host;
-}
-
-TEST(NullWorld)
-{
-    float v[12] = { 0.0f };
-    kiriSheetDef sheetDef = Host_SmallDef();
-    kiriPinDef pinDef;
-    kiriWorldDef worldDef;
-    kiriWorld* world;
-    uint64_t hash;
-    const kiriEvent* events;
-    const float* positions;
-    int32_t count;
-    uint32_t id;
-    kiriProfile profile;
-    kiriMesh mesh;
-    kiriDirty dirty;
-    uint16_t indices[3];
-    kiriBudget budget = { 0, 0, 0, 0 };
-    kiriPinState pinState;
-    double d[3];
-    kiriCounts counts;
-    kiriTotals totals;
-    kiriHit hit;
-    kiriFrameState frame;
-    kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.0f, .friction = 0.0f };
-    kiriDefaultPinDef(&pinDef);
-    kiriDefaultWorldDef(&worldDef);
-    kiriDefaultWorldDef(NULL);
-    kiriDefaultSheetDef(NULL);
-    kiriDefaultPinDef(NULL);
-    kiriDestroyWorld(NULL);
-    const kiriResult results[] = {
-        kiriCreateWorld(NULL, &world),
-        kiriCreateWorld(&worldDef, NULL),
-        kiriWorld_Tick(NULL, 0.01f, 1),
-        kiriWorld_SetGravity(NULL, v),
-        kiriWorld_GetStateHash(NULL, &hash),
-        kiriWorld_GetEvents(NULL, &events, &count),
-        kiriWorld_GetProfile(NULL, &profile),
-        kiriCreateSheet(NULL, &sheetDef, &id),
-        kiriDestroySheet(NULL, 1),
-        kiriWorld_SetBudget(NULL, &budget),
-        kiriSheet_GetMesh(NULL, 1, &mesh),
-        kiriSheet_GetDirty(NULL, 1, 0, &dirty),
-        kiriSheet_CopyVertices(NULL, 1, 0, 1, v, 12, NULL, 0),
-        kiriSheet_CopyIndices16(NULL, 1, 0, 1, indices),
-        kiriSheet_GetCollisionPoints(NULL, 1, &positions, &count),
-        kiriSheet_GetCounts(NULL, 1, &counts),
-        kiriSheet_GetTotals(NULL, 1, &totals),
-        kiriSheet_EstimateError(NULL, 1, &totals.mass),
-        kiriSheet_Raycast(NULL, 1, v, v, 1.0f, &hit),
-        kiriWorld_Raycast(NULL, v, v, 1.0f, &id, &hit),
-        kiriSheet_GetWeights(NULL, 1, v, &id, v, NULL, 1, &count),
-        kiriBeginCut(NULL, 1, v, &id),
-        kiriCut_Extend(NULL, 1, v, 1),
-        kiriCut_End(NULL, 1),
-        kiriSheet_Slice(NULL, 1, v, &id),
-        kiriBeginBlade(NULL, 0, &id),
-        kiriBlade_MoveEdge(NULL, 1, v, v),
-        kiriBlade_MoveRay(NULL, 1, v, v, 1.0f),
-        kiriBlade_End(NULL, 1),
-        kiriSheet_GetFrames(NULL, 1, &id, 1, &count),
-        kiriFrame_GetState(NULL, 1, &frame),
-        kiriFrame_Hold(NULL, 1, NULL, NULL),
-        kiriFrame_GetReaction(NULL, 1, d, d),
-        kiriFrame_ApplyForce(NULL, 1, v, v),
-        kiriSheet_ApplyForce(NULL, 1, v, v, v),
-        kiriSheet_ApplyLineLoad(NULL, 1, v, v + 1, v),
-        kiriSheet_ApplyPressure(NULL, 1, 1.0f),
-        kiriSheet_ClampLine(NULL, 1, v, v + 1, &id),
-        kiriSheet_HingeLine(NULL, 1, v, v + 1, &id),
-        kiriPin_SetPose(NULL, 1, v, v),
-        kiriPin_GetState(NULL, 1, &pinState),
-        kiriPin_GetReaction(NULL, 1, d, d),
-        kiriSheet_GetPins(NULL, 1, &id, 1, &count),
-        kiriCreatePin(NULL, 1, &pinDef, &id),
-        kiriPin_SetTarget(NULL, 1, v),
-        kiriDestroyPin(NULL, 1),
-        kiriCreateSeam(NULL, NULL, &id),
-        kiriDestroySeam(NULL, 1),
-        kiriSeam_SetHinge(NULL, 1, 0.0f, 0.0f),
-        kiriSeam_GetStitch(NULL, 1, 0, NULL),
-        kiriSeam_GetCount(NULL, 1, &count),
-        kiriWorld_GetSeams(NULL, &id, 1, &count),
-        kiriSheet_SetContacts(NULL, 1, &contact, 1),
-    };
-    for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {
-        assert_int_equal(results[i], KIRI_ERROR_ARGUMENT);
-    }
-    assert_string_equal(kiriWorld_GetLastError(NULL), "");
-}
 
 TEST(Names)
 {
@@ -310,8 +195,8 @@ TEST(WorldDefs)
 
 TEST(WorldArguments)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
     static const float badSteps[] = { NAN, INFINITY, -INFINITY, 0.0f, -0.01f, 0.9e-6f, 10.001f, 1e30f };
     static const int32_t badSubsteps[] = { 0, -1, 65, INT32_MAX, INT32_MIN };
@@ -330,7 +215,6 @@ TEST(WorldArguments)
     REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetEvents(w, NULL, &count));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetEvents(w, &events, NULL));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_GetProfile(w, NULL));
-    Host_Stop(host);
 }
 
 /* A def is refused, *sheet is 0, and nothing is left behind. */
@@ -343,8 +227,8 @@ TEST(WorldArguments)
 
 TEST(SheetDefFloats)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriSheetDef def = Host_SmallDef();
     float points[8];
     memcpy(points, def.framePoints, sizeof(points));
@@ -354,11 +238,16 @@ TEST(SheetDefFloats)
     const struct {
         float* first;
         int count;
-    } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },      { def.velocity, 3 },
-                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 },  { &m->density, 1 },
-                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { &m->yieldStress, 1 },
-                   { &m->hardening, 1 },     { &m->slack, 1 },         { points, 8 },        { &def.snapDistance, 1 },
-                   { &def.weldDistance, 1 }, { &def.rigidWeight, 1 },  { &def.rigidArea, 1 }, { r.positions, 18 } };
+    } fields[] = { { def.position, 3 },      { def.axisU, 3 },
+                   { def.axisV, 3 },         { def.velocity, 3 },
+                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 },
+                   { &m->thickness, 1 },     { &m->density, 1 },
+                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },
+                   { &m->yieldStress, 1 },   { &m->hardening, 1 },
+                   { &m->slack, 1 },         { points, 8 },
+                   { &def.snapDistance, 1 }, { &def.weldDistance, 1 },
+                   { &def.rigidWeight, 1 },  { &def.rigidArea, 1 },
+                   { r.positions, 18 } };
     for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
         kiriSheet made = 0;
         REFUSED_FLOATS(fields[i].first, fields[i].count, kiriCreateSheet(host->world, &def, &made));
@@ -366,17 +255,16 @@ TEST(SheetDefFloats)
     const struct {
         float* field;
         float value;
-    } ranges[] = { { &m->youngsModulus, 0.0f },  { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
-                   { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
-                   { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
-                   { &m->flexDamping, -0.1f },   { &m->yieldStress, -1.0f },   { &m->hardening, 1.0f },
-                   { &m->slack, 1.0f },          { &m->slack, -0.1f },
-                   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
-                   { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },
-                   { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },
-                   { &def.axisV[0], 1e30f },     { &points[0], -0.1f },        { &points[1], 1.1f },
-                   { &points[2], 1e30f },        { &points[3], -1e30f },       { &points[4], 16.1875f },
-                   { &points[5], -7.1875f } };
+    } ranges[] = { { &m->youngsModulus, 0.0f }, { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
+                   { &m->poissonsRatio, 0.5f }, { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
+                   { &m->density, 0.0f },       { &m->density, -1.0f },       { &m->airDamping, -0.1f },
+                   { &m->flexDamping, -0.1f },  { &m->yieldStress, -1.0f },   { &m->hardening, 1.0f },
+                   { &m->slack, 1.0f },         { &m->slack, -0.1f },         { &def.snapDistance, -0.1f },
+                   { &def.rigidWeight, 0.0f },  { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },
+                   { &def.axisU[0], 0.0f },     { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },
+                   { &def.axisV[1], -2.0f },    { &def.axisV[0], 1e30f },     { &points[0], -0.1f },
+                   { &points[1], 1.1f },        { &points[2], 1e30f },        { &points[3], -1e30f },
+                   { &points[4], 16.1875f },    { &points[5], -7.1875f } };
     for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;
@@ -386,13 +274,12 @@ TEST(SheetDefFloats)
     points[0] = points[2] + 0.01f; /* two frames in one cell */
     points[1] = points[3];
     REFUSED_DEF(KIRI_ERROR_ARGUMENT);
-    Host_Stop(host);
 }
 
 TEST(SheetDefInts)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriSheetDef def = Host_SmallDef();
     SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
     const struct {
@@ -427,48 +314,12 @@ TEST(SheetDefInts)
     REFUSED_DEF(KIRI_ERROR_DEF);
     memset(&def, 0, sizeof(def));
     REFUSED_DEF(KIRI_ERROR_DEF);
-    Host_Stop(host);
-}
-
-/* A program that forgets a kiriDefault function gets a code and a line that names the function. */
-TEST(ZeroedDefs)
-{
-    Fixture f;
-    Host* host = Setup(&f);
-    static const union {
-        kiriWorldDef world;
-        kiriSheetDef sheet;
-        kiriPinDef pin;
-        kiriObstacleDef obstacle;
-        kiriSheetSettings settings;
-        kiriDebugDraw draw;
-    } zeroed;
-    kiriWorld* world = host->world;
-    uint32_t id;
-    assert_int_equal(kiriCreateWorld(&zeroed.world, &world), KIRI_ERROR_DEF);
-    assert_null(world);
-    assert_non_null(strstr(kiriGetResultText(KIRI_ERROR_DEF), "kiriDefaultWorldDef"));
-    world = host->world;
-    REFUSED(KIRI_ERROR_DEF, kiriCreateSheet(world, &zeroed.sheet, &id));
-    assert_non_null(strstr(host->line, "kiriCreateSheet: def was not filled by kiriDefaultSheetDef"));
-    REFUSED(KIRI_ERROR_DEF, kiriCreateRectangle(world, 1.0f, 1.0f, 1, 1, &zeroed.sheet, &id));
-    assert_non_null(strstr(host->line, "kiriCreateRectangle: def was not filled by kiriDefaultSheetDef"));
-    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(world, f.sheet, &zeroed.pin, &id));
-    assert_non_null(strstr(host->line, "kiriCreatePin: def was not filled by kiriDefaultPinDef"));
-    REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(world, &zeroed.obstacle, &id));
-    assert_non_null(strstr(host->line, "kiriCreateObstacle: def was not filled by kiriDefaultObstacleDef"));
-    REFUSED(KIRI_ERROR_DEF, kiriSheet_SetSettings(world, f.sheet, &zeroed.settings));
-    assert_non_null(strstr(host->line, "kiriSheet_SetSettings: settings was not filled by kiriSheet_GetSettings"));
-    assert_int_equal(kiriWorld_DebugDraw(world, &zeroed.draw), KIRI_ERROR_DEF);
-    assert_non_null(strstr(host->line, "kiriWorld_DebugDraw: "));
-    assert_non_null(strstr(host->line, "kiriDefaultDebugDraw"));
-    Host_Stop(host);
 }
 
 TEST(Meshes)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     static const float square[14] = { 0.0f, 0.0f, 1.0f, 0.0f,  1.0f,  1.0f,  0.0f,
                                       1.0f, 0.5f, 0.5f, 0.25f, 0.25f, 0.75f, 0.6f };
     static const struct {
@@ -506,7 +357,6 @@ TEST(Meshes)
         def.triangleCount = 1;
         REFUSED_DEF(KIRI_ERROR_MESH);
     }
-    Host_Stop(host);
 }
 
 TEST(FillRectangle)
@@ -562,355 +412,289 @@ TEST(CreateRectangle)
     }
 }
 
-/* What names nothing of a kind: nothing, garbage, neighbours of a living id, ids of other kinds, and the dead. */
-static int32_t WrongIds(const Fixture* f, uint32_t living, uint32_t dead, uint32_t* ids)
+/* ---- Arguments of every call ---- */
+
+typedef enum SlotKind { ID, FLOATS, NUMBER, INDEX, DEF, POINTER } SlotKind;
+
+/* A member of Given: an argument that is made wrong. */
+typedef struct Slot {
+    const char* name;
+    size_t offset;
+    SlotKind kind;
+    int32_t count; /* of floats */
+} Slot;
+
+#define SLOT(member, kind)                                                                                             \
+    {                                                                                                                  \
+        "g->" #member, offsetof(Given, member), kind, 0                                                                \
+    }
+#define FLOATS_SLOT(member, count)                                                                                     \
+    {                                                                                                                  \
+        "g->" #member, offsetof(Given, member), FLOATS, count                                                          \
+    }
+static const Slot slots[] = {
+    SLOT(sheet, ID),         SLOT(folded, ID),       SLOT(frame, ID),         SLOT(pin, ID),
+    SLOT(clamp, ID),         SLOT(cut, ID),          SLOT(blade, ID),         SLOT(obstacle, ID),
+    SLOT(seam, ID),          FLOATS_SLOT(point, 2),  FLOATS_SLOT(end, 2),     FLOATS_SLOT(points, 400),
+    FLOATS_SLOT(vector, 3),  FLOATS_SLOT(spin, 3),   FLOATS_SLOT(quad, 12),   FLOATS_SLOT(rotation, 9),
+    FLOATS_SLOT(inertia, 6), SLOT(dt, NUMBER),       SLOT(size, NUMBER),      SLOT(index, INDEX),
+    SLOT(one, INDEX),        SLOT(def, DEF),         SLOT(pinDef, DEF),       SLOT(obstacleDef, DEF),
+    SLOT(seamDef, DEF),      SLOT(settings, DEF),    SLOT(draw, DEF),         SLOT(budget, POINTER),
+    SLOT(wind, POINTER),     SLOT(tearing, POINTER), SLOT(fold, POINTER),     SLOT(contacts, POINTER),
+    SLOT(frames, POINTER),   SLOT(save, POINTER),    SLOT(snapshot, POINTER), SLOT(replay, POINTER),
+    SLOT(id, POINTER),       SLOT(ids, POINTER),     SLOT(count, POINTER),    SLOT(out, POINTER),
+    SLOT(more, POINTER),
+};
+
+static bool Takes(const EveryCall* call, const Slot* slot)
 {
-    const uint32_t all[] = { 0,
-                             dead,
-                             0x12345678u,
-                             0xffffffffu,
-                             living + 1,
-                             living ^ (1u << 18),
-                             living | 0xffffu,
-                             living ^ 0x80000000u,
-                             f->sheet,
-                             f->cut,
-                             f->frame,
-                             f->pin };
-    int32_t count = 0;
-    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); ++i) {
-        if (all[i] != living) {
-            ids[count++] = all[i];
+    size_t length = strlen(slot->name);
+    const char* at = strstr(call->arguments, slot->name);
+    while (at != NULL && at[length] != ',' && at[length] != '\0') {
+        at = strstr(at + 1, slot->name);
+    }
+    return at != NULL;
+}
+
+/* Makes the call with `value` in the slot, which must be refused. */
+static void Spoil(Stand* s, const EveryCall* call, const Slot* slot, const void* value, size_t bytes,
+                  kiriResult expected)
+{
+    Host* host = &s->tape.host;
+    Given given = s->given;
+    memcpy((char*)&given + slot->offset, value, bytes);
+    Before before = Look(host);
+    CheckRefused(host, before, call->make(host->world, &given), expected, call->name, (int)(slot - slots));
+}
+
+/* Nothing, garbage, neighbours of a living id, and ids of other kinds. */
+static void SpoilId(Stand* s, const EveryCall* call, const Slot* slot)
+{
+    const Given* g = &s->given;
+    uint32_t living;
+    memcpy(&living, (const char*)g + slot->offset, sizeof(living));
+    const uint32_t ids[] = {
+        0,      0x12345678u, UINT32_MAX, living ^ (1u << 18), living | 0xffffu, living ^ (1u << 31), g->sheet, g->frame,
+        g->pin, g->cut,      g->blade,   g->obstacle,         g->seam
+    };
+    for (size_t i = 0; i < sizeof(ids) / sizeof(ids[0]); ++i) {
+        bool isKind =
+            ids[i] == living || (living == g->folded && ids[i] == g->sheet) || (living == g->clamp && ids[i] == g->pin);
+        if (!isKind && (ids[i] != 0 || strcmp(call->name, "kiriBeginBlade") != 0)) {
+            Spoil(s, call, slot, &ids[i], sizeof(ids[i]), KIRI_ERROR_ID);
         }
     }
-    return count;
 }
 
-typedef struct Dead {
-    uint32_t sheet, cut, frame, pin;
-} Dead;
-
-/* A second sheet with a frame and a cut of its own, destroyed; and a cut that is finished, and a pin destroyed. */
-static Dead MakeDead(Fixture* f)
+/* Each of the first floats NaN and infinite. */
+static void SpoilFloats(Stand* s, const EveryCall* call, const Slot* slot)
 {
-    Host* host = &f->host;
-    Dead dead;
-    kiriSheetDef def = Host_SmallDef();
-    int32_t frames;
-    static const float line[4] = { 0.2f, -0.1f, 0.2f, 1.1f };
-    dead.sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 2, 2);
-    OK(kiriSheet_GetFrames(host->world, dead.sheet, &dead.frame, 1, &frames));
-    OK(kiriDestroySheet(host->world, dead.sheet));
-    dead.cut = Host_Cut(host, f->sheet, line, 2);
-    OK(Host_Tick(host, 0.01f, 1));
-    dead.pin = Host_Pin(host, f->sheet, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f);
-    OK(kiriDestroyPin(host->world, dead.pin));
-    return dead;
-}
-
-TEST(Ids)
-{
-    Fixture f;
-    Host* host = Setup(&f);
-    kiriWorld* w = host->world;
-    Dead dead = MakeDead(&f);
-    uint32_t ids[16], made;
-    int32_t count;
-    float v[12] = { 0.5f, 0.5f, 0.5f };
-    const float* positions;
-    kiriMesh mesh;
-    kiriCounts counts;
-    kiriTotals totals;
-    kiriHit hit;
-    kiriFrameState frame;
-    kiriPinDef pinDef;
-    kiriPinState pinState;
-    double d[3];
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.0f, .friction = 0.0f };
-    kiriDefaultPinDef(&pinDef);
-    for (int32_t i = WrongIds(&f, f.sheet, dead.sheet, ids); i-- > 0;) {
-        REFUSED(KIRI_ERROR_ID, kiriDestroySheet(w, ids[i]));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetMesh(w, ids[i], &mesh));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetCollisionPoints(w, ids[i], &positions, &count));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetCounts(w, ids[i], &counts));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetTotals(w, ids[i], &totals));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_EstimateError(w, ids[i], &totals.mass));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_Raycast(w, ids[i], v, v, 1.0f, &hit));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetWeights(w, ids[i], v, &made, v, NULL, 1, &count));
-        REFUSED(KIRI_ERROR_ID, kiriBeginCut(w, ids[i], v, &made));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_Slice(w, ids[i], v, &made));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetFrames(w, ids[i], &made, 1, &count));
-        REFUSED(KIRI_ERROR_ID, kiriCreatePin(w, ids[i], &pinDef, &made));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_ClampLine(w, ids[i], v, v + 1, &made));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_HingeLine(w, ids[i], v, v + 1, &made));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_GetPins(w, ids[i], &made, 1, &count));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyForce(w, ids[i], v, v, v));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyLineLoad(w, ids[i], v, v + 1, v));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_ApplyPressure(w, ids[i], 1.0f));
-        REFUSED(KIRI_ERROR_ID, kiriSheet_SetContacts(w, ids[i], &contact, 1));
-    }
-    for (int32_t i = WrongIds(&f, f.cut, dead.cut, ids); i-- > 0;) {
-        REFUSED(KIRI_ERROR_ID, kiriCut_Extend(w, ids[i], v, 1));
-        REFUSED(KIRI_ERROR_ID, kiriCut_End(w, ids[i]));
-    }
-    for (int32_t i = WrongIds(&f, f.pin, dead.pin, ids); i-- > 0;) {
-        REFUSED(KIRI_ERROR_ID, kiriPin_SetTarget(w, ids[i], v));
-        REFUSED(KIRI_ERROR_ID, kiriPin_SetPose(w, ids[i], v, eye));
-        REFUSED(KIRI_ERROR_ID, kiriPin_GetState(w, ids[i], &pinState));
-        REFUSED(KIRI_ERROR_ID, kiriPin_GetReaction(w, ids[i], d, d));
-        REFUSED(KIRI_ERROR_ID, kiriDestroyPin(w, ids[i]));
-    }
-    /* The sheet's other frames are right. */
-    for (int32_t i = WrongIds(&f, f.frame, dead.frame, ids); i-- > 0;) {
-        if (ids[i] != f.frame + 1) {
-            REFUSED(KIRI_ERROR_ID, kiriFrame_GetState(w, ids[i], &frame));
-            REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], v, eye));
-            REFUSED(KIRI_ERROR_ID, kiriFrame_Hold(w, ids[i], NULL, NULL));
-            REFUSED(KIRI_ERROR_ID, kiriFrame_ApplyForce(w, ids[i], v, v));
-            REFUSED(KIRI_ERROR_ID, kiriFrame_GetReaction(w, ids[i], d, d));
-        }
-    }
-    OK(kiriDestroySheet(w, f.sheet)); /* takes what is on it along */
-    f.sheet = 0;
-    REFUSED(KIRI_ERROR_ID, kiriCut_End(w, f.cut));
-    REFUSED(KIRI_ERROR_ID, kiriDestroyPin(w, f.pin));
-    REFUSED(KIRI_ERROR_ID, kiriFrame_GetState(w, f.frame, &frame));
-    Host_Stop(host);
-}
-
-TEST(SheetArguments)
-{
-    Fixture f;
-    Host* host = Setup(&f);
-    kiriWorld* w = host->world;
-    kiriSheet s = f.sheet;
-    float a[3] = { 0.5f, 0.5f, 1.0f }, b[3] = { 0.0f, 0.0f, -1.0f }, far = 1.0f;
-    float out[8][2] = { { -0.01f, 0.5f }, { 1.01f, 0.5f },  { 0.5f, -0.01f }, { 0.5f, 1.01f },
-                        { 1e30f, 0.5f },  { 0.5f, -1e30f }, { 16.5f, 0.5f },  { 3.4e38f, 3.4e38f } };
-    const float* positions;
-    int32_t count;
-    kiriFrame frame;
-    kiriSheet id;
-    kiriHit hit;
-    float weight;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetMesh(w, s, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetDirty(w, s, 0, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, NULL, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCollisionPoints(w, s, &positions, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetCounts(w, s, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetTotals(w, s, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_EstimateError(w, s, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, 1, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, NULL, 1, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetFrames(w, s, &frame, -1, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, NULL, b, 1.0f, &id, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, NULL, 1.0f, &id, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, 1.0f, NULL, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, 1.0f, &id, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, a, b, -0.1f, &id, &hit));
-    REFUSED_FLOATS(a, 3, kiriWorld_Raycast(w, a, b, 1.0f, &id, &hit));
-    REFUSED_FLOATS(b, 3, kiriWorld_Raycast(w, a, b, 1.0f, &id, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, NULL, b, 1.0f, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, NULL, 1.0f, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, 1.0f, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, -0.1f, &hit));
-    REFUSED_FLOATS(a, 3, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
-    REFUSED_FLOATS(b, 3, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
-    REFUSED_FLOATS(&far, 1, kiriSheet_Raycast(w, s, a, b, far, &hit));
-    b[2] = 0.0f;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s, a, b, 1.0f, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, NULL, &frame, &weight, NULL, 1, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, NULL, &weight, NULL, 1, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, NULL, NULL, 1, &count));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, 1, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, -1, &count));
-    REFUSED_FLOATS(a, 2, kiriSheet_GetWeights(w, s, a, &frame, &weight, NULL, 1, &count));
-    for (int i = 0; i < 8; ++i) {
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetWeights(w, s, out[i], &frame, &weight, NULL, 1, &count));
-    }
-    Host_Stop(host);
-}
-
-TEST(CutArguments)
-{
-    Fixture f;
-    Host* host = Setup(&f);
-    kiriWorld* w = host->world;
-    float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
-    kiriCut cut;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriBeginCut(w, f.sheet, NULL, &cut));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriBeginCut(w, f.sheet, v, NULL));
-    REFUSED_FLOATS(v, 2, kiriBeginCut(w, f.sheet, v, &cut));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, NULL, 1));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, 0));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, -1));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, f.cut, v, INT32_MAX));
-    REFUSED_FLOATS(v, 12, kiriCut_Extend(w, f.cut, v, 6));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Slice(w, f.sheet, NULL, &cut));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Slice(w, f.sheet, v, NULL));
-    REFUSED_FLOATS(v, 12, kiriSheet_Slice(w, f.sheet, v, &cut));
-    OK(kiriCut_Extend(w, f.cut, v, 6));
-    OK(kiriCut_End(w, f.cut));
-    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, f.cut));
-    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, f.cut, v, 1));
-    OK(kiriSheet_Slice(w, f.sheet, v, &cut));
-    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, cut)); /* a slice is ended already */
-    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, cut, v, 1));
-    Host_Stop(host);
-}
-
-TEST(FrameArguments)
-{
-    Fixture f;
-    Host* host = Setup(&f);
-    kiriWorld* w = host->world;
-    float v[3] = { 1.0f, 2.0f, 3.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetState(w, f.frame, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, NULL, r));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, NULL));
-    REFUSED_FLOATS(v, 3, kiriFrame_Hold(w, f.frame, v, r));
-    REFUSED_FLOATS(r, 9, kiriFrame_Hold(w, f.frame, v, r));
-    for (int i = 0; i < 9; ++i) {
-        static const float wrong[3] = { 0.7f, -0.7f, 1e30f };
+    const float *floats, *spoiled;
+    float copy[400];
+    memcpy(&floats, (const char*)&s->given + slot->offset, sizeof(floats));
+    for (int32_t i = 0; i < slot->count && i < 12; ++i) {
+        memcpy(copy, floats, sizeof(float) * (size_t)slot->count);
+        spoiled = copy;
         for (int k = 0; k < 3; ++k) {
-            float kept = r[i];
-            r[i] = wrong[k];
-            REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
-            r[i] = kept;
+            copy[i] = badFloats[k];
+            Spoil(s, call, slot, &spoiled, sizeof(spoiled), KIRI_ERROR_ARGUMENT);
         }
     }
-    r[8] = -1.0f; /* a mirror */
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
-    memset(r, 0, sizeof(r));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, f.frame, v, r));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_ApplyForce(w, f.frame, NULL, v));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_ApplyForce(w, f.frame, v, NULL));
-    float u[3] = { 0.0f, 0.0f, 0.0f };
-    REFUSED_FLOATS(u, 3, kiriFrame_ApplyForce(w, f.frame, u, v));
-    REFUSED_FLOATS(v, 3, kiriFrame_ApplyForce(w, f.frame, u, v));
-    Host_Stop(host);
 }
 
-TEST(PinArguments)
+static void SpoilSlot(Stand* s, const EveryCall* call, const Slot* slot)
 {
-    Fixture f;
-    Host* host = Setup(&f);
-    kiriWorld* w = host->world;
-    kiriPinDef def;
-    kiriPin pin;
-    float target[3] = { 1.0f, 2.0f, 3.0f };
-    kiriDefaultPinDef(&def);
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, NULL, &pin));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, NULL));
-    REFUSED_FLOATS(def.restPoint, 2, kiriCreatePin(w, f.sheet, &def, &pin));
-    REFUSED_FLOATS(def.target, 3, kiriCreatePin(w, f.sheet, &def, &pin));
-    REFUSED_FLOATS(&def.stiffness, 1, kiriCreatePin(w, f.sheet, &def, &pin));
-    def.stiffness = -1.0f;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, &pin));
-    def.stiffness = 0.0f;
-    static const float out[] = { -0.01f, 1.01f, 1e30f, -1e30f, 16.5f };
-    for (int i = 0; i < 10; ++i) {
-        def.restPoint[i % 2] = out[i / 2];
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, f.sheet, &def, &pin));
-        def.restPoint[i % 2] = 0.5f;
+    static const int32_t badIndices[3] = { -1, INT32_MIN, INT32_MAX };
+    static const char zeros[sizeof(kiriSheetDef)];
+    const void *none = NULL, *zeroed = zeros;
+    if (slot->kind == ID) {
+        SpoilId(s, call, slot);
+        return;
     }
-    def.cookie = 0;
-    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(w, f.sheet, &def, &pin));
-    memset(&def, 0, sizeof(def));
-    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(w, f.sheet, &def, &pin));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetTarget(w, f.pin, NULL));
-    REFUSED_FLOATS(target, 3, kiriPin_SetTarget(w, f.pin, target));
-    double d[3];
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetState(w, f.pin, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetReaction(w, f.pin, NULL, d));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_GetReaction(w, f.pin, d, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetReaction(w, f.frame, NULL, d));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetReaction(w, f.frame, d, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, &pin, 1, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, &pin, -1, &(int32_t){ 0 }));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_GetPins(w, f.sheet, NULL, 1, &(int32_t){ 0 }));
-    Host_Stop(host);
+    if (slot->kind == NUMBER) {
+        for (int k = 0; k < 3; ++k) {
+            Spoil(s, call, slot, &badFloats[k], sizeof(float), KIRI_ERROR_ARGUMENT);
+        }
+        return;
+    }
+    if (slot->kind == INDEX) {
+        for (int k = 0; k < (slot->offset == offsetof(Given, one) ? 2 : 3); ++k) { /* a count may be any room */
+            Spoil(s, call, slot, &badIndices[k], sizeof(int32_t), KIRI_ERROR_ARGUMENT);
+        }
+        return;
+    }
+    Spoil(s, call, slot, &none, sizeof(none), KIRI_ERROR_ARGUMENT);
+    if (slot->kind == FLOATS) {
+        SpoilFloats(s, call, slot);
+    } else if (slot->kind == DEF) { /* a program forgot to fill it: the line names the function that does */
+        Spoil(s, call, slot, &zeroed, sizeof(zeroed), KIRI_ERROR_DEF);
+        assert_non_null(strstr(s->tape.host.line,
+                               slot->offset == offsetof(Given, settings) ? "kiriSheet_GetSettings" : "kiriDefault"));
+    }
+}
+
+/* Each argument of each call wrong by itself, and the world null. */
+TEST(EachArgument)
+{
+    START_STAND(s);
+    World_PieceMesh(s.tape.host.world, s.given.sheet, 0); /* makes the lists of pieces, which stay */
+    for (const EveryCall* call = everyCall; call < everyCall + everyCallCount; ++call) {
+        assert_int_equal(call->make(NULL, &s.given), KIRI_ERROR_ARGUMENT);
+        for (size_t i = 0; i < sizeof(slots) / sizeof(slots[0]); ++i) {
+            if (Takes(call, &slots[i])) {
+                SpoilSlot(&s, call, &slots[i]);
+            }
+        }
+    }
+    assert_string_equal(kiriWorld_GetLastError(NULL), "");
+}
+
+/* The arguments are valid: EachArgument is refused for the one that it makes wrong. */
+TEST(EachCallGoesWell)
+{
+    for (const EveryCall* call = everyCall; call < everyCall + everyCallCount; ++call) {
+        START_STAND(s);
+        if (Stand_Make(&s, call) < 0) {
+            fail_msg("%s", s.tape.host.line);
+        }
+    }
+}
+
+/* What ends a thing, and the argument that then names nothing. */
+TEST(DeadIds)
+{
+    static const struct {
+        const char *ends, *slot;
+    } deaths[] = { { "kiriDestroySheet", "g->sheet" },       { "kiriDestroySheet", "g->frame" },
+                   { "kiriDestroySheet", "g->pin" },         { "kiriDestroySheet", "g->cut" },
+                   { "kiriDestroySheet", "g->seam" },        { "kiriDestroyPin", "g->pin" },
+                   { "kiriBlade_End", "g->blade" },          { "kiriDestroySeam", "g->seam" },
+                   { "kiriDestroyObstacle", "g->obstacle" }, { "kiriFrame_DestroyPiece", "g->frame" } };
+    for (size_t i = 0; i < sizeof(deaths) / sizeof(deaths[0]); ++i) {
+        START_STAND(s);
+        Host* host = &s.tape.host;
+        assert_true(Stand_Make(&s, EveryCall_Find(deaths[i].ends)) >= 0);
+        OK(Host_Tick(host, 0.01f, 1));
+        for (const EveryCall* call = everyCall; call < everyCall + everyCallCount; ++call) {
+            const Slot slot = { .name = deaths[i].slot };
+            if (Takes(call, &slot)) {
+                Before before = Look(host);
+                CheckRefused(host, before, Stand_Make(&s, call), KIRI_ERROR_ID, call->name, __LINE__);
+            }
+        }
+    }
+}
+
+/* ---- Values that are out of range ---- */
+
+TEST(Nulls)
+{
+    kiriWorldDef def;
+    kiriWorld* world;
+    kiriDefaultWorldDef(&def);
+    kiriDefaultWorldDef(NULL);
+    kiriDefaultSheetDef(NULL);
+    kiriDefaultPinDef(NULL);
+    kiriDestroyWorld(NULL);
+    assert_int_equal(kiriCreateWorld(NULL, &world), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriCreateWorld(&def, NULL), KIRI_ERROR_ARGUMENT);
+    assert_non_null(strstr(kiriGetResultText(KIRI_ERROR_DEF), "kiriDefaultWorldDef"));
+}
+
+static const float outside[8][2] = { { -0.01f, 0.5f }, { 1.01f, 0.5f },  { 0.5f, -0.01f }, { 0.5f, 1.01f },
+                                     { 1e30f, 0.5f },  { 0.5f, -1e30f }, { 16.5f, 0.5f },  { 3.4e38f, 3.4e38f } };
+
+TEST(PointsOutside)
+{
+    START_STAND(s);
+    Host* host = &s.tape.host;
+    kiriWorld* w = host->world;
+    static const float v[3] = { 1.0f, 2.0f, 3.0f };
+    kiriFrame frame;
+    float weight;
+    int32_t count;
+    kiriPin pin;
+    for (int i = 0; i < 8; ++i) {
+        kiriPinDef def = Host_PinDef(outside[i][0], outside[i][1], 0.0f, 0.0f, 0.0f);
+        REFUSED(KIRI_ERROR_ARGUMENT,
+                kiriSheet_GetWeights(w, s.given.sheet, outside[i], &frame, &weight, NULL, 1, &count));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, s.given.sheet, &def, &pin));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, s.given.sheet, outside[i], v, v));
+    }
 }
 
 /* Lines that are none, or meet nothing, whoever asks for them. */
-TEST(LineArguments)
+TEST(LinesBeside)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
     kiriPin pin;
-    float a[2] = { 0.2f, 0.3f }, b[2] = { 0.7f, 0.9f }, q[3] = { 1.0f, 2.0f, 3.0f };
-    static const float beside[3][4] = { { -0.1f, 0.0f, -0.1f, 1.0f },
-                                        { 1.2f, 0.1f, 1.3f, 0.5f },
-                                        { -0.2f, 0.1f, 0.1f, -0.2f } };
-    static const float far[2] = { 1e30f, 0.0f };
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, f.sheet, a, b, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, f.sheet, a, b, NULL));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, NULL));
-    REFUSED_FLOATS(q, 3, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, q));
-#define REFUSED_LINE(from, to)                                                                                         \
-    do {                                                                                                               \
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, f.sheet, from, to, &pin));                                 \
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, f.sheet, from, to, &pin));                                 \
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, f.sheet, from, to, q));                                \
-    } while (0)
-    REFUSED_LINE(NULL, b);
-    REFUSED_LINE(a, NULL);
-    REFUSED_LINE(a, a);
-    REFUSED_LINE(far, b);
-    REFUSED_LINE(a, far);
-    for (int i = 0; i < 3; ++i) {
-        REFUSED_LINE(beside[i], beside[i] + 2);
+    static const float q[3] = { 1.0f, 2.0f, 3.0f };
+    static const float lines[6][4] = { { 0.2f, 0.3f, 0.2f, 0.3f },  { 1e30f, 0.0f, 0.7f, 0.9f },
+                                       { 0.2f, 0.3f, 1e30f, 0.0f }, { -0.1f, 0.0f, -0.1f, 1.0f },
+                                       { 1.2f, 0.1f, 1.3f, 0.5f },  { -0.2f, 0.1f, 0.1f, -0.2f } };
+    for (int i = 0; i < 6; ++i) {
+        const float *from = lines[i], *to = lines[i] + 2;
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, s.given.sheet, from, to, &pin));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, s.given.sheet, from, to, &pin));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, s.given.sheet, from, to, q));
     }
-    REFUSED_FLOATS(a, 2, kiriSheet_ClampLine(w, f.sheet, a, b, &pin));
-    REFUSED_FLOATS(b, 2, kiriSheet_HingeLine(w, f.sheet, a, b, &pin));
-    REFUSED_FLOATS(b, 2, kiriSheet_ApplyLineLoad(w, f.sheet, a, b, q));
-    Host_Stop(host);
 }
 
-TEST(PoseArguments)
+TEST(RotationsThatAreNone)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
-    float x[3] = { 0.0f, 0.0f, 0.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    static const float a[2] = { 0.0f, 0.0f }, b[2] = { 0.0f, 1.0f };
-    kiriPin pin = World_Clamp(w, f.sheet, a, b);
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, f.pin, x, r)); /* it holds a point */
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, NULL, r));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, NULL));
-    REFUSED_FLOATS(x, 3, kiriPin_SetPose(w, pin, x, r));
-    REFUSED_FLOATS(r, 9, kiriPin_SetPose(w, pin, x, r));
+    static const float v[3] = { 1.0f, 2.0f, 3.0f }, wrong[3] = { 0.7f, -0.7f, 1e30f };
+    float r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    kiriPin pin = World_Clamp(w, s.given.sheet, (float[]){ 0.0f, 0.0f }, (float[]){ 0.0f, 1.0f });
+#define REFUSED_ROTATION                                                                                               \
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_Hold(w, s.given.frame, v, r));                                              \
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, v, r))
+    for (int i = 0; i < 27; ++i) {
+        float kept = r[i / 3];
+        r[i / 3] = wrong[i % 3];
+        REFUSED_ROTATION;
+        r[i / 3] = kept;
+    }
     r[8] = -1.0f; /* a mirror */
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, r));
+    REFUSED_ROTATION;
     r[4] = -1.0f;
-    OK(kiriPin_SetPose(w, pin, x, r));
-    r[1] = 0.1f;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, r));
-    Host_Stop(host);
+    OK(kiriPin_SetPose(w, pin, v, r));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, s.given.pin, v, r)); /* it holds a point */
+    memset(r, 0, sizeof(r));
+    REFUSED_ROTATION;
 }
 
-TEST(LoadArguments)
+TEST(OtherRanges)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
-    float at[2] = { 0.4f, 0.6f }, v[3] = { 1.0f, 2.0f, 3.0f }, u[3] = { 0.0f, 0.0f, 0.0f }, p = 1.0f;
-    static const float out[5] = { -0.01f, 1.01f, 1e30f, -1e30f, 16.5f };
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, NULL, v, v));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, NULL, v));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, v, NULL));
-    REFUSED_FLOATS(at, 2, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
-    REFUSED_FLOATS(u, 3, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
-    REFUSED_FLOATS(v, 3, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
-    for (int i = 0; i < 10; ++i) {
-        at[i % 2] = out[i / 2];
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyForce(w, f.sheet, at, u, v));
-        at[i % 2] = 0.5f;
+    static const float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
+    kiriPinDef def = Host_PinDef(0.5f, 0.5f, 0.0f, 0.0f, 0.0f);
+    kiriPin pin;
+    kiriSheet sheet;
+    kiriHit hit;
+    kiriCut cut;
+    def.stiffness = -1.0f;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, s.given.sheet, &def, &pin));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, v, v, -0.1f, &sheet, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, v, -0.1f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, (float[]){ 0.0f, 0.0f, 0.0f }, 1.0f, &hit));
+    static const int32_t counts[3] = { 0, -1, INT32_MAX };
+    for (int i = 0; i < 3; ++i) {
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, s.given.cut, v, counts[i]));
     }
-    REFUSED_FLOATS(&p, 1, kiriSheet_ApplyPressure(w, f.sheet, p));
-    Host_Stop(host);
+    OK(kiriCut_Extend(w, s.given.cut, v, 6));
+    OK(kiriCut_End(w, s.given.cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, s.given.cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, s.given.cut, v, 1));
+    OK(kiriSheet_Slice(w, s.given.sheet, v, &cut));
+    REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, cut)); /* a slice is ended already */
+    REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, cut, v, 1));
 }
 
 TEST(ShortIndicesNeedFewVertices)
@@ -927,10 +711,10 @@ TEST(ShortIndicesNeedFewVertices)
 
 TEST(ContactArguments)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
-    int32_t points = Host_Counts(host, f.sheet).collisionPoints;
+    int32_t points = Host_Counts(host, s.given.sheet).collisionPoints;
     kiriContact c[2] = { { .point = 0, .normal = { 0.0f, 0.6f, 0.8f }, .friction = 0.5f },
                          { .point = 1, .normal = { 1.0f, 0.0f, 0.0f }, .inverseMass = 2.0f, .pushSpeed = 0.5f } };
     const struct {
@@ -939,12 +723,12 @@ TEST(ContactArguments)
     } floats[] = { { c[1].normal, 3 },    { &c[1].offset, 1 },      { c[1].velocity, 3 },
                    { &c[1].friction, 1 }, { &c[1].inverseMass, 1 }, { &c[1].pushSpeed, 1 } };
     for (int i = 0; i < 6; ++i) {
-        REFUSED_FLOATS(floats[i].field, floats[i].count, kiriSheet_SetContacts(w, f.sheet, c, 2));
+        REFUSED_FLOATS(floats[i].field, floats[i].count, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
     }
     const int32_t wrongPoints[] = { -2, points, INT32_MIN, INT32_MAX };
     for (int i = 0; i < 4; ++i) {
         c[1].point = wrongPoints[i];
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, 2));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
         c[1].point = 1;
     }
     const struct {
@@ -956,23 +740,21 @@ TEST(ContactArguments)
     for (int i = 0; i < 7; ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, 2));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
         *ranges[i].field = kept;
     }
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, NULL, 1));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, f.sheet, c, -1));
-    OK(kiriSheet_SetContacts(w, f.sheet, c, 2));
-    OK(kiriSheet_SetContacts(w, f.sheet, NULL, 0));
-    Host_Stop(host);
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, NULL, 1));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, -1));
+    OK(kiriSheet_SetContacts(w, s.given.sheet, c, 2));
+    OK(kiriSheet_SetContacts(w, s.given.sheet, NULL, 0));
 }
 
 /* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
 TEST(HugeValues)
 {
     for (int what = 0; what < 8; ++what) {
-        Fixture f;
-        Setup(&f);
-        Host* host = &f.host;
+        START_STAND(s);
+        Host* host = &s.tape.host;
         kiriWorld* w = host->world;
         static const float huge[3] = { 1e30f, -1e30f, 1e30f };
         static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
@@ -992,38 +774,37 @@ TEST(HugeValues)
             OK(kiriWorld_SetGravity(w, huge));
             break;
         case 1:
-            OK(kiriPin_SetTarget(w, f.pin, huge));
+            OK(kiriPin_SetTarget(w, s.given.pin, huge));
             break;
         case 2:
-            OK(kiriCreatePin(w, f.sheet, &pin, &made));
+            OK(kiriCreatePin(w, s.given.sheet, &pin, &made));
             break;
         case 3:
-            OK(kiriFrame_ApplyForce(w, f.frame, huge, huge));
+            OK(kiriFrame_ApplyForce(w, s.given.frame, huge, huge));
             break;
         case 4:
-            OK(kiriFrame_Hold(w, f.frame, huge, eye));
+            OK(kiriFrame_Hold(w, s.given.frame, huge, eye));
             break;
         case 5:
-            OK(kiriSheet_SetContacts(w, f.sheet, &contact, 1));
+            OK(kiriSheet_SetContacts(w, s.given.sheet, &contact, 1));
             break;
         case 6:
-            OK(kiriSheet_Slice(w, f.sheet, blade, &cut));
+            OK(kiriSheet_Slice(w, s.given.sheet, blade, &cut));
             break;
         default:
-            OK(kiriCut_Extend(w, f.cut, huge, 1));
-            OK(kiriCut_Extend(w, f.cut, inside, 1));
-            OK(kiriSheet_Raycast(w, f.sheet, huge, huge, 1e30f, &hit));
+            OK(kiriCut_Extend(w, s.given.cut, huge, 1));
+            OK(kiriCut_Extend(w, s.given.cut, inside, 1));
+            OK(kiriSheet_Raycast(w, s.given.sheet, huge, huge, 1e30f, &hit));
             assert_int_equal(hit.triangle, -1);
         }
         for (int tick = 0; tick < 3; ++tick) {
             kiriResult result = Host_Tick(host, 0.01f, 2);
             assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
-            kiriMesh mesh = Host_Mesh(host, f.sheet);
+            kiriMesh mesh = Host_Mesh(host, s.given.sheet);
             if (!AllFinite(mesh.positions, 3 * mesh.vertexCount) || !AllFinite(mesh.normals, 3 * mesh.vertexCount)) {
                 fail_msg("huge value %d, tick %d: not finite", what, tick);
             }
         }
-        Host_Stop(host);
     }
 }
 
@@ -1083,7 +864,6 @@ static void CopyEvery(int32_t every)
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyIndices16(host->world, sheet, 0, mesh.triangleCount + 1, indices));
         CutOn(host, cut, &seed);
     }
-    Host_Stop(host);
 }
 
 TEST(Copies)
@@ -1096,8 +876,8 @@ TEST(Copies)
 /* A line names the function, the argument, the member or index, the value, and what it should be. */
 TEST(LinesNameArguments)
 {
-    Fixture f;
-    Host* host = Setup(&f);
+    START_STAND(s);
+    Host* host = &s.tape.host;
     kiriWorld* w = host->world;
     const float bad[4] = { 0.0f, 0.0f, 0.0f, NAN };
     const kiriBudget budget = { 0, -7, 0, 0 };
@@ -1115,10 +895,11 @@ TEST(LinesNameArguments)
     SAYS(kiriWorld_SetBudget(w, &budget),
          "kiriWorld_SetBudget: budget.cells is -7, not within 0 and 2147483647 (KIRI_ERROR_ARGUMENT)");
     SAYS(kiriSheet_Wake(w, 77), "kiriSheet_Wake: sheet is 77: there is no sheet with this id (KIRI_ERROR_ID)");
-    SAYS(kiriCut_Extend(w, f.cut, bad, 2), "kiriCut_Extend: restPoints[3] is NaN, not finite (KIRI_ERROR_ARGUMENT)");
-    SAYS(kiriCut_Extend(w, f.cut, bad, 0),
+    SAYS(kiriCut_Extend(w, s.given.cut, bad, 2),
+         "kiriCut_Extend: restPoints[3] is NaN, not finite (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriCut_Extend(w, s.given.cut, bad, 0),
          "kiriCut_Extend: restPoints: count is 0, not within 1 and 16777216 (KIRI_ERROR_ARGUMENT)");
-    SAYS(kiriPin_SetBreakForce(w, f.pin, -0.125f),
+    SAYS(kiriPin_SetBreakForce(w, s.given.pin, -0.125f),
          "kiriPin_SetBreakForce: breakForce is -0.125, not 0 or more (KIRI_ERROR_ARGUMENT)");
     SAYS(kiriCreateObstacle(w, &sphere, &id),
          "kiriCreateObstacle: def has a radius that is not above 0 and up to 1e6 (KIRI_ERROR_ARGUMENT)");
@@ -1132,5 +913,4 @@ TEST(LinesNameArguments)
     def.accuracy = 2.5e-5f;
     SAYS(kiriCreateRectangle(w, 1.0f, 1.0f, 1, 1, &def, &id),
          "kiriCreateRectangle: def.accuracy is 2.5e-5, not within 1e-4 and 1 (KIRI_ERROR_ARGUMENT)");
-    Host_Stop(host);
 }

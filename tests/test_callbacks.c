@@ -1,7 +1,6 @@
 /* Callbacks that call their own world: each function of the header from within each callback. While a function that
    changes the world runs, all are refused; while one that only reads does, those that change it. */
 #include "every_call.h"
-#include "host.h"
 
 #include <stdio.h>
 
@@ -27,25 +26,6 @@ typedef struct Caller {
 
 /* ---- All functions ---- */
 
-typedef struct Function {
-    const char* name;
-    kiriResult (*call)(kiriWorld* world);
-    bool changes;
-} Function;
-
-#define DEFINE_CALL(name, ...)                                                                                         \
-    static kiriResult Call_##name(kiriWorld* world)                                                                    \
-    {                                                                                                                  \
-        return name(__VA_ARGS__);                                                                                      \
-    }
-EVERY_CALL(DEFINE_CALL, DEFINE_CALL)
-
-#define CHANGING_FUNCTION(name, ...) { #name, Call_##name, true },
-#define READING_FUNCTION(name, ...) { #name, Call_##name, false },
-static const Function functions[] = { EVERY_CALL(CHANGING_FUNCTION, READING_FUNCTION) };
-
-enum { FUNCTIONS = sizeof(functions) / sizeof(*functions) };
-
 /* The list has each function that the header declares with a world, with const or without. */
 TEST(ListIsWhole)
 {
@@ -58,9 +38,9 @@ TEST(ListIsWhole)
         bool isFunction = sscanf(line, "KIRI_API kiriResult %127[A-Za-z0-9_](", name) == 1;
         if (isFunction && strstr(line, "kiriWorld* world") != NULL) {
             bool isListed = false;
-            for (int32_t i = 0; i < FUNCTIONS; ++i) {
-                isListed |= strcmp(functions[i].name, name) == 0 &&
-                            functions[i].changes == (strstr(line, "const kiriWorld*") == NULL);
+            for (int32_t i = 0; i < everyCallCount; ++i) {
+                isListed |= strcmp(everyCall[i].name, name) == 0 &&
+                            everyCall[i].changes == (strstr(line, "const kiriWorld*") == NULL);
             }
             if (!isListed) {
                 fail_msg("%s is not in every_call.h", name);
@@ -69,7 +49,7 @@ TEST(ListIsWhole)
         }
     }
     fclose(header);
-    assert_int_equal(found, FUNCTIONS);
+    assert_int_equal(found, everyCallCount);
 }
 
 /* ---- Callbacks ---- */
@@ -79,25 +59,26 @@ static void CallAll(Caller* caller, int32_t callback)
     if ((caller->armed & callback) == 0 || caller->called[callback] >= caller->most) {
         return;
     }
+    static const Given none;
     kiriWorld* world = caller->host.world;
     char before[256];
     int32_t armed = caller->armed, lines = caller->host.lines;
     caller->armed = 0;
     strcpy(before, kiriWorld_GetLastError(world));
-    for (int32_t i = 0; i < FUNCTIONS; ++i) {
-        kiriResult result = functions[i].call(world);
-        if ((result == KIRI_ERROR_STATE) != (functions[i].changes || !caller->isRead)) {
-            fail_msg("%s from within callback %d: %s", functions[i].name, (int)callback, kiriGetResultName(result));
+    for (const EveryCall* call = everyCall; call < everyCall + everyCallCount; ++call) {
+        kiriResult result = call->make(world, &none);
+        if ((result == KIRI_ERROR_STATE) != (call->changes || !caller->isRead)) {
+            fail_msg("%s from within callback %d: %s", call->name, (int)callback, kiriGetResultName(result));
         }
         /* A line for each, but to the log that calls. */
-        bool isTold = callback != IN_LOG && functions[i].changes;
+        bool isTold = callback != IN_LOG && call->changes;
         if (isTold) {
-            assert_true(strstr(caller->host.line, functions[i].name) == caller->host.line);
+            assert_true(strstr(caller->host.line, call->name) == caller->host.line);
         }
     }
     kiriDestroyWorld(world);
     assert_true(callback == IN_LOG ? caller->isRead || caller->host.lines == lines
-                                   : caller->host.lines >= lines + FUNCTIONS / 2);
+                                   : caller->host.lines >= lines + everyCallCount / 2);
     assert_string_equal(before, kiriWorld_GetLastError(world));
     caller->armed = armed;
     caller->called[callback] += 1;

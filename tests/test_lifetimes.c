@@ -1,6 +1,6 @@
 /* Arrays that a call hands out stay as they are until the next tick, whatever is called in between. What is freed is
    poisoned, so a plain comparison tells. */
-#include "host.h"
+#include "every_call.h"
 
 typedef struct Lent {
     const char* name;
@@ -91,229 +91,69 @@ static void EndLoan(Loan* loan)
     loan->count = 0;
 }
 
-/* ---- A sheet of five pieces ---- */
-
-typedef struct Desk {
-    Host host;
-    kiriSheetDef def;
-    Rectangle mesh;
-    kiriSheet sheet;
-    kiriPin pin;
-    kiriCut cut;
-    bool waits; /* a piece is to be detached, when the budget has paid for it */
-} Desk;
-
-static void Desk_Start(Desk* desk)
+/* Any call but the first two of the table: kiriWorld_Tick and kiriWorld_FinishCuts end the arrays. */
+static const EveryCall* BetweenTicks(uint32_t random)
 {
-    static const float way[4] = { 0.5f, 2.0f, 0.6f, 2.0f };
-    memset(desk, 0, sizeof(*desk));
-    Host_Start(&desk->host);
-    kiriPinDef pin;
-    kiriDefaultPinDef(&pin);
-    pin.restPoint[0] = pin.restPoint[1] = 0.1f;
-    desk->def = Host_SmallDef();
-    desk->def.collisionPoints = 60;
-    desk->mesh = Rectangle_Make(&desk->def, 1.0f, 1.0f, 6, 6);
-    OK(kiriCreateSheet(desk->host.world, &desk->def, &desk->sheet));
-    OK(kiriCreatePin(desk->host.world, desk->sheet, &pin, &desk->pin));
-    for (int i = 0; i < 4; ++i) {
-        float v = 0.3f + 0.18f * (float)i, line[4] = { -0.1f, v, 1.1f, v + 0.03f };
-        Host_Cut(&desk->host, desk->sheet, line, 2);
-    }
-    OK(kiriBeginCut(desk->host.world, desk->sheet, way, &desk->cut));
-    OK(kiriWorld_Tick(desk->host.world, 1.0f / 60.0f, 2));
-    assert_int_equal(Host_Counts(&desk->host, desk->sheet).pieces, 5);
+    enum { ENDING = 2 };
+    return &everyCall[ENDING + random % (uint32_t)(everyCallCount - ENDING)];
 }
-
-static void Desk_Stop(Desk* desk)
-{
-    Rectangle_Free(&desk->mesh);
-    Host_Stop(&desk->host);
-}
-
-/* ---- Calls in between ---- */
-
-/* What it may be with a piece that waits: the call waits, too, or would leave nothing. */
-static bool Waits(kiriResult result)
-{
-    return result == KIRI_OK || result == KIRI_PENDING || result == KIRI_ERROR_STATE;
-}
-
-static void DetachPiece(Desk* desk, uint32_t random)
-{
-    int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
-    kiriSheet detached;
-    kiriFrame frame = Host_FrameOf(&desk->host, desk->sheet, (int32_t)(random % (uint32_t)pieces));
-    kiriResult result = kiriFrame_DetachPiece(desk->host.world, frame, &detached);
-    desk->waits = desk->waits || result == KIRI_PENDING;
-    assert_true(result == (pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE) || (desk->waits && Waits(result)));
-}
-
-static void DestroyPiece(Desk* desk, uint32_t random)
-{
-    int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
-    kiriFrame frame = Host_FrameOf(&desk->host, desk->sheet, (int32_t)(random % (uint32_t)pieces));
-    kiriResult result = kiriFrame_DestroyPiece(desk->host.world, frame);
-    assert_true(result == (pieces > 1 ? KIRI_OK : KIRI_ERROR_STATE) || (desk->waits && Waits(result)));
-}
-
-static void DropCrumbs(Desk* desk, uint32_t random)
-{
-    int32_t count;
-    OK(kiriSheet_DropCrumbs(desk->host.world, desk->sheet, random % 2 == 0 ? 0.16f : 1.0f, &count));
-}
-
-static void DestroySheet(Desk* desk, uint32_t random)
-{
-    OK(kiriDestroySheet(desk->host.world, desk->sheet));
-    OK(kiriCreateSheet(desk->host.world, &desk->def, &desk->sheet));
-}
-
-static void CreateSheets(Desk* desk, uint32_t random)
-{
-    for (uint32_t i = 0; i < 1 + random % 10; ++i) {
-        kiriSheet sheet;
-        OK(kiriCreateSheet(desk->host.world, &desk->def, &sheet));
-    }
-}
-
-/* Getters that write into arrays of the library: those of pieces. */
-static void Get(Desk* desk, uint32_t random)
-{
-    int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
-    Loan loan = LendAll(&desk->host, desk->sheet);
-    EndLoan(&loan);
-    World_PieceState(desk->host.world, desk->sheet, (int32_t)(random % (uint32_t)pieces));
-}
-
-static void SetContacts(Desk* desk, uint32_t random)
-{
-    kiriContact contacts[100];
-    int32_t points = Host_Counts(&desk->host, desk->sheet).collisionPoints;
-    int32_t count = points > 0 ? (int32_t)(random % 100) : 0;
-    for (int32_t i = 0; i < count; ++i) {
-        kiriContact contact = {
-            .point = i % points, .normal = { 0.0f, 0.0f, 1.0f }, .offset = -0.1f, .friction = 0.3f
-        };
-        contacts[i] = contact;
-    }
-    OK(kiriSheet_SetContacts(desk->host.world, desk->sheet, contacts, count));
-}
-
-static void Cut(Desk* desk, uint32_t random)
-{
-    float u = (float)(random % 100) / 100.0f;
-    float blade[12] = { u, -1.0f, -1.0f, u, -1.0f, 1.0f, u, 2.0f, 1.0f, u, 2.0f, -1.0f };
-    kiriCut cut;
-    OK(kiriSheet_Slice(desk->host.world, desk->sheet, blade, &cut));
-    OK(kiriBeginCut(desk->host.world, desk->sheet, blade, &cut));
-    OK(kiriCut_Extend(desk->host.world, cut, blade, 6));
-    OK(kiriCut_End(desk->host.world, cut));
-}
-
-static void Pin(Desk* desk, uint32_t random)
-{
-    for (uint32_t i = 0; i < 1 + random % 20; ++i) {
-        const float* at = &Host_Mesh(&desk->host, desk->sheet).restPositions[0];
-        Host_Pin(&desk->host, desk->sheet, at[0], at[1], 0.0f, 0.0f, 0.0f);
-    }
-}
-
-static void Push(Desk* desk, uint32_t random)
-{
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    kiriFrame frame = Host_FrameOf(&desk->host, desk->sheet, 0);
-    kiriBudget budget = { (int32_t)(16 + random % 20), 50, 50, 0 };
-    OK(kiriFrame_Hold(desk->host.world, frame, eye, eye));
-    OK(kiriFrame_ApplyForce(desk->host.world, frame, eye, eye));
-    OK(kiriWorld_SetGravity(desk->host.world, eye));
-    OK(kiriWorld_ShiftOrigin(desk->host.world, eye));
-    OK(kiriWorld_SetBudget(desk->host.world, &budget));
-    OK(kiriSheet_Wake(desk->host.world, desk->sheet));
-}
-
-static void Fail(Desk* desk, uint32_t random)
-{
-    kiriSheet sheet;
-    desk->host.failAt = desk->host.calls + (int64_t)(random % 60);
-    kiriResult result = kiriCreateSheet(desk->host.world, &desk->def, &sheet);
-    desk->host.failAt = -1;
-    assert_int_equal(result, KIRI_ERROR_MEMORY);
-    assert_int_equal(kiriWorld_Tick(desk->host.world, 0.0f, 1), KIRI_ERROR_ARGUMENT); /* no tick */
-}
-
-typedef struct Between {
-    const char* name;
-    void (*call)(Desk* desk, uint32_t random);
-} Between;
-
-static const Between betweens[] = {
-    { "kiriFrame_DetachPiece", DetachPiece },
-    { "kiriFrame_DestroyPiece", DestroyPiece },
-    { "kiriSheet_DropCrumbs", DropCrumbs },
-    { "kiriDestroySheet", DestroySheet },
-    { "kiriCreateSheet", CreateSheets },
-    { "a getter", Get },
-    { "kiriSheet_SetContacts", SetContacts },
-    { "a cut", Cut },
-    { "kiriCreatePin", Pin },
-    { "kiriFrame_Hold", Push },
-    { "a call that fails", Fail },
-};
-
-enum { BETWEENS = sizeof(betweens) / sizeof(betweens[0]) };
 
 TEST(EachCall)
 {
-    for (int k = 0; k < BETWEENS; ++k) {
-        SCOPED(Desk, desk, Desk_Stop);
-        Desk_Start(&desk);
-        Loan loan = LendAll(&desk.host, desk.sheet);
-        betweens[k].call(&desk, 3);
-        CheckLoan(&loan, betweens[k].name);
+    for (const EveryCall* call = BetweenTicks(0); call < everyCall + everyCallCount; ++call) {
+        START_STAND(s);
+        Loan loan = LendAll(&s.tape.host, s.given.sheet);
+        assert_true(Stand_Make(&s, call) >= 0);
+        CheckLoan(&loan, call->name);
         EndLoan(&loan);
     }
 }
 
-/* Many calls between two ticks, and arrays lent at any time: what the first call makes stale the others keep. */
+/* Many calls between two ticks, a third of them refused memory, and arrays lent at any time: each stays as lent. */
 TEST(CallsAtRandom)
 {
     enum { RUNS = 40, STEPS = 12 };
     for (uint32_t run = 1; run <= RUNS; ++run) {
         uint32_t seed = 104729u * run;
-        SCOPED(Desk, desk, Desk_Stop);
+        START_STAND(s);
         Loan loans[STEPS];
-        Desk_Start(&desk);
+        Host* host = &s.tape.host;
         for (int step = 0; step < STEPS; ++step) {
-            const Between* between = &betweens[Random(&seed) % BETWEENS];
-            loans[step] = LendAll(&desk.host, desk.sheet);
-            between->call(&desk, Random(&seed));
+            const EveryCall* call = BetweenTicks(Random(&seed));
+            kiriCounts counts;
+            if (kiriSheet_GetCounts(host->world, s.given.sheet, &counts) != KIRI_OK) { /* destroyed */
+                OK(kiriCreateSheet(host->world, &s.def, &s.given.sheet));
+            }
+            loans[step] = LendAll(host, s.given.sheet);
+            host->failAt = Random(&seed) % 3 == 0 ? host->calls + (int64_t)(Random(&seed) % 60) : -1;
+            Stand_Make(&s, call);
+            host->failAt = -1;
             for (int i = 0; i <= step; ++i) {
-                CheckLoan(&loans[i], between->name);
+                CheckLoan(&loans[i], call->name);
             }
         }
         for (int step = 0; step < STEPS; ++step) {
             EndLoan(&loans[step]);
         }
-        assert_true(kiriWorld_Tick(desk.host.world, 1.0f / 60.0f, 1) >= 0);
+        assert_true(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1) >= 0);
     }
 }
 
 /* What was lent is given back: a tick frees it. */
 TEST(TickFreesWhatWasLent)
 {
-    SCOPED(Desk, desk, Desk_Stop);
-    Desk_Start(&desk);
-    OK(kiriDestroySheet(desk.host.world, desk.sheet));
-    int64_t lent = desk.host.live;
-    OK(kiriWorld_Tick(desk.host.world, 1.0f / 60.0f, 1));
-    assert_true(desk.host.live < lent);
-    OK(kiriCreateSheet(desk.host.world, &desk.def, &desk.sheet));
-    int64_t before = desk.host.live;
+    START_STAND(s);
+    Host* host = &s.tape.host;
+    OK(kiriDestroySheet(host->world, s.given.sheet));
+    int64_t lent = host->live;
+    OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1));
+    assert_true(host->live < lent);
+    OK(kiriCreateSheet(host->world, &s.def, &s.given.sheet));
+    int64_t before = host->live;
     for (int i = 0; i < 5; ++i) {
-        OK(kiriDestroySheet(desk.host.world, desk.sheet));
-        OK(kiriCreateSheet(desk.host.world, &desk.def, &desk.sheet));
-        OK(kiriWorld_Tick(desk.host.world, 1.0f / 60.0f, 1));
-        assert_int_equal(desk.host.live, before);
+        OK(kiriDestroySheet(host->world, s.given.sheet));
+        OK(kiriCreateSheet(host->world, &s.def, &s.given.sheet));
+        OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1));
+        assert_int_equal(host->live, before);
     }
 }
