@@ -225,7 +225,8 @@ TEST(WorldArguments)
         assert_int_equal(made, 0);                                                                                     \
     } while (0)
 
-TEST(SheetDefFloats)
+/* Arrays of a def, and their counts. test_ranges.c has the numbers. */
+TEST(SheetDefArrays)
 {
     START_STAND(s);
     Host* host = &s.tape.host;
@@ -234,76 +235,32 @@ TEST(SheetDefFloats)
     memcpy(points, def.framePoints, sizeof(points));
     def.framePoints = points;
     SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
-    kiriMaterial* m = &def.material;
-    const struct {
-        float* first;
-        int count;
-    } fields[] = { { def.position, 3 },      { def.axisU, 3 },
-                   { def.axisV, 3 },         { def.velocity, 3 },
-                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 },
-                   { &m->thickness, 1 },     { &m->density, 1 },
-                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },
-                   { &m->yieldStress, 1 },   { &m->hardening, 1 },
-                   { &m->slack, 1 },         { points, 8 },
-                   { &def.snapDistance, 1 }, { &def.weldDistance, 1 },
-                   { &def.rigidWeight, 1 },  { &def.rigidArea, 1 },
-                   { r.positions, 18 } };
-    for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
-        kiriSheet made = 0;
-        REFUSED_FLOATS(fields[i].first, fields[i].count, kiriCreateSheet(host->world, &def, &made));
-    }
-    const struct {
-        float* field;
-        float value;
-    } ranges[] = { { &m->youngsModulus, 0.0f }, { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
-                   { &m->poissonsRatio, 0.5f }, { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
-                   { &m->density, 0.0f },       { &m->density, -1.0f },       { &m->airDamping, -0.1f },
-                   { &m->flexDamping, -0.1f },  { &m->yieldStress, -1.0f },   { &m->hardening, 1.0f },
-                   { &m->slack, 1.0f },         { &m->slack, -0.1f },         { &def.snapDistance, -0.1f },
-                   { &def.rigidWeight, 0.0f },  { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },
-                   { &def.axisU[0], 0.0f },     { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },
-                   { &def.axisV[1], -2.0f },    { &def.axisV[0], 1e30f },     { &points[0], -0.1f },
-                   { &points[1], 1.1f },        { &points[2], 1e30f },        { &points[3], -1e30f },
-                   { &points[4], 16.1875f },    { &points[5], -7.1875f } };
-    for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i) {
-        float kept = *ranges[i].field;
-        *ranges[i].field = ranges[i].value;
+    kiriSheet sheet;
+    REFUSED_FLOATS(points, 8, kiriCreateSheet(host->world, &def, &sheet));
+    REFUSED_FLOATS(r.positions, 18, kiriCreateSheet(host->world, &def, &sheet));
+    static const float beside[6] = { -0.1f, 1.1f, 1e30f, -1e30f, 16.1875f, -7.1875f };
+    for (int i = 0; i < 6; ++i) {
+        float kept = points[i];
+        points[i] = beside[i];
         REFUSED_DEF(KIRI_ERROR_ARGUMENT);
-        *ranges[i].field = kept;
+        points[i] = kept;
     }
-    points[0] = points[2] + 0.01f; /* two frames in one cell */
-    points[1] = points[3];
-    REFUSED_DEF(KIRI_ERROR_ARGUMENT);
-}
-
-TEST(SheetDefInts)
-{
-    START_STAND(s);
-    Host* host = &s.tape.host;
-    kiriSheetDef def = Host_SmallDef();
-    SCOPED_AS(Rectangle, r, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
     const struct {
         int32_t* field;
         int32_t values[4];
     } ints[] = { { &def.vertexCount, { 0, -1, INT32_MIN, 2 } },
                  { &def.triangleCount, { 0, -1, INT32_MIN, INT32_MAX } },
-                 { &def.gridResolution, { 0, -1, 4097, INT32_MAX } },
-                 { &def.frameCount, { 0, -1, INT32_MIN, INT32_MAX } },
-                 { &def.maxFrames, { 0, -1, INT32_MIN, -7 } },
-                 { &def.collisionPoints, { -1, INT32_MIN, INT32_MAX, (1 << 20) + 1 } },
-                 { &def.iterations, { 0, -1, 65, INT32_MAX } },
                  { &r.indices[4], { -1, INT32_MIN, 9, INT32_MAX } } };
-    for (size_t i = 0; i < sizeof(ints) / sizeof(ints[0]); ++i) {
-        int32_t kept = *ints[i].field;
-        for (int k = 0; k < 4; ++k) {
-            *ints[i].field = ints[i].values[k];
-            REFUSED_DEF(KIRI_ERROR_ARGUMENT);
-        }
-        *ints[i].field = kept;
+    for (int i = 0; i < 12; ++i) {
+        int32_t kept = *ints[i / 4].field;
+        *ints[i / 4].field = ints[i / 4].values[i % 4];
+        REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+        *ints[i / 4].field = kept;
     }
-    kiriSheet none;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateSheet(host->world, NULL, &none));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateSheet(host->world, &def, NULL));
+    points[0] = points[2] + 0.01f; /* two frames in one cell */
+    points[1] = points[3];
+    REFUSED_DEF(KIRI_ERROR_ARGUMENT);
+    points[0] = points[1] = 0.1875f;
     def.restPositions = NULL;
     REFUSED_DEF(KIRI_ERROR_ARGUMENT);
     def.restPositions = r.positions;
@@ -311,8 +268,6 @@ TEST(SheetDefInts)
     REFUSED_DEF(KIRI_ERROR_ARGUMENT);
     def.indices = r.indices;
     def.cookie += 1;
-    REFUSED_DEF(KIRI_ERROR_DEF);
-    memset(&def, 0, sizeof(def));
     REFUSED_DEF(KIRI_ERROR_DEF);
 }
 
@@ -456,15 +411,19 @@ static bool Takes(const EveryCall* call, const Slot* slot)
     return at != NULL;
 }
 
-/* Makes the call with `value` in the slot, which must be refused. */
+/* Makes the call with `value` in the slot, which must be refused: what it would have made has the id 0. */
 static void Spoil(Stand* s, const EveryCall* call, const Slot* slot, const void* value, size_t bytes,
                   kiriResult expected)
 {
     Host* host = &s->tape.host;
     Given given = s->given;
     memcpy((char*)&given + slot->offset, value, bytes);
+    *s->given.id = 77;
     Before before = Look(host);
-    CheckRefused(host, before, call->make(host->world, &given), expected, call->name, (int)(slot - slots));
+    CheckRefused(host, before, call->make(host->world, &given), expected, call->name, __LINE__);
+    bool makes = call->changes && given.id != NULL && strstr(call->arguments, "g->id") != NULL &&
+                 strstr(call->arguments, "g->ids") == NULL;
+    assert_int_equal(*s->given.id, makes ? 0 : 77);
 }
 
 /* Nothing, garbage, neighbours of a living id, and ids of other kinds. */
@@ -560,6 +519,124 @@ TEST(EachCallGoesWell)
     }
 }
 
+/* A number of a struct, and two values below or above its range. Floats may not be NaN or infinite either. */
+typedef struct Member {
+    const char* call;
+    size_t slot, bytes, offset;
+    bool isWhole;
+    double bad[2];
+} Member;
+
+#define MEMBER(call, slot, Type, member) #call, offsetof(Given, slot), sizeof(Type), offsetof(Type, member)
+#define REAL(call, slot, Type, member, low, high)                                                                      \
+    {                                                                                                                  \
+        MEMBER(call, slot, Type, member), false,                                                                       \
+        {                                                                                                              \
+            low, high                                                                                                  \
+        }                                                                                                              \
+    }
+#define WHOLE(call, slot, Type, member, low, high)                                                                     \
+    {                                                                                                                  \
+        MEMBER(call, slot, Type, member), true,                                                                        \
+        {                                                                                                              \
+            low, high                                                                                                  \
+        }                                                                                                              \
+    }
+static const Member members[] = {
+    REAL(kiriSheet_SetWind, wind, kiriWind, velocity[0], NAN, NAN),
+    REAL(kiriSheet_SetWind, wind, kiriWind, density, -1.0, NAN),
+    REAL(kiriSheet_SetWind, wind, kiriWind, drag, -1.0, NAN),
+    REAL(kiriSheet_SetWind, wind, kiriWind, lift, -1.0, NAN),
+    REAL(kiriSheet_SetTearing, tearing, kiriTearing, toughness, -1.0, NAN),
+    REAL(kiriSheet_SetTearing, tearing, kiriTearing, grain[0], NAN, NAN),
+    REAL(kiriSheet_SetTearing, tearing, kiriTearing, grainRatio, -1.0, NAN),
+    REAL(kiriSheet_SetTearing, tearing, kiriTearing, maxSpeed, -1.0, NAN),
+    WHOLE(kiriSheet_SetTearing, tearing, kiriTearing, maxTips, -1, INT32_MIN),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, material.density, 0.0, -1.0),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, material.poissonsRatio, -0.1, 0.5),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, crumbArea, -1.0, NAN),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, friction, -1.0, NAN),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, contactThickness, -1.0, NAN),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, sleepSpeed, -1.0, NAN),
+    REAL(kiriSheet_SetSettings, settings, kiriSheetSettings, fadeTime, -1.0, NAN),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, maxFrames, 0, -1),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, touchesSheets, -1, 2),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, iterations, 0, 65),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, skinning, -1, 2),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, timeStepping, -1, 2),
+    WHOLE(kiriSheet_SetSettings, settings, kiriSheetSettings, normals, -1, 2),
+    REAL(kiriSheet_AddFold, fold, kiriFold, from[0], NAN, NAN),
+    REAL(kiriSheet_AddFold, fold, kiriFold, to[1], NAN, NAN),
+    REAL(kiriSheet_AddFold, fold, kiriFold, stiffness, -1.0, NAN),
+    REAL(kiriSheet_AddFold, fold, kiriFold, restAngle, -3.2, 3.2),
+    REAL(kiriSheet_AddFold, fold, kiriFold, yieldMoment, -1.0, NAN),
+    REAL(kiriCreateSeam, seamDef, kiriSeamDef, stiffness, -1.0, NAN),
+    REAL(kiriCreateSeam, seamDef, kiriSeamDef, restAngle, -3.2, 3.2),
+    REAL(kiriCreateSeam, seamDef, kiriSeamDef, breakForce, -1.0, NAN),
+    WHOLE(kiriCreateSeam, seamDef, kiriSeamDef, stitches, 1, -1),
+    WHOLE(kiriCreateSeam, seamDef, kiriSeamDef, countA, 1, 65537),
+    WHOLE(kiriCreateSeam, seamDef, kiriSeamDef, countB, 0, -1),
+    WHOLE(kiriWorld_SetBudget, budget, kiriBudget, triangles, -1, 15),
+    WHOLE(kiriWorld_SetBudget, budget, kiriBudget, cells, -1, INT32_MIN),
+    WHOLE(kiriWorld_SetBudget, budget, kiriBudget, samples, -1, INT32_MIN),
+    WHOLE(kiriWorld_SetBudget, budget, kiriBudget, iterations, -1, INT32_MIN),
+    REAL(kiriCreatePin, pinDef, kiriPinDef, target[1], NAN, NAN),
+    REAL(kiriCreatePin, pinDef, kiriPinDef, stiffness, -1.0, NAN),
+    REAL(kiriCreatePin, pinDef, kiriPinDef, breakForce, -1.0, NAN),
+    REAL(kiriWorld_DebugDraw, draw, kiriDebugDraw, size, 0.0, -1.0),
+    WHOLE(kiriWorld_DebugDraw, draw, kiriDebugDraw, flags, KIRI_DRAW_ALL + 1, INT32_MIN),
+};
+
+TEST(EachMember)
+{
+    START_STAND(s);
+    for (size_t i = 0; i < sizeof(members) / sizeof(members[0]); ++i) {
+        const Member* member = &members[i];
+        const double values[5] = { member->bad[0], member->bad[1], NAN, INFINITY, -INFINITY };
+        for (int k = 0; k < (member->isWhole ? 2 : 5); ++k) {
+            char spoiled[256];
+            const void *good, *bad = spoiled;
+            int32_t whole = member->isWhole ? (int32_t)values[k] : 0;
+            float real = (float)values[k];
+            memcpy(&good, (const char*)&s.given + member->slot, sizeof(good));
+            assert_true(member->bytes <= sizeof(spoiled));
+            memcpy(spoiled, good, member->bytes);
+            memcpy(spoiled + member->offset, member->isWhole ? (const void*)&whole : (const void*)&real, 4);
+            const Slot slot = { .offset = member->slot };
+            Spoil(&s, EveryCall_Find(member->call), &slot, &bad, sizeof(bad), KIRI_ERROR_ARGUMENT);
+        }
+    }
+}
+
+/* Numbers that are arguments themselves. */
+TEST(EachNumber)
+{
+    static const struct {
+        const char* call;
+        size_t slot;
+        float bad[2];
+    } numbers[] = {
+        { "kiriWorld_Tick", offsetof(Given, dt), { 0.9e-6f, 10.001f } },
+        { "kiriSheet_SetFold", offsetof(Given, dt), { -3.2f, 3.2f } },
+        { "kiriSheet_SetFold", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSheet_GetSolid", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSheet_Raycast", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriWorld_Raycast", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSheet_DropCrumbs", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriBlade_MoveRay", offsetof(Given, size), { 0.0f, -1.0f } },
+        { "kiriPin_SetBreakForce", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSeam_SetHinge", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSeam_SetHinge", offsetof(Given, dt), { -3.2f, 3.2f } },
+        { "kiriObstacle_SetMass", offsetof(Given, size), { -0.1f, -1e30f } },
+    };
+    START_STAND(s);
+    for (size_t i = 0; i < 2 * sizeof(numbers) / sizeof(numbers[0]); ++i) {
+        const Slot slot = { .offset = numbers[i / 2].slot };
+        Spoil(&s, EveryCall_Find(numbers[i / 2].call), &slot, &numbers[i / 2].bad[i % 2], sizeof(float),
+              KIRI_ERROR_ARGUMENT);
+    }
+}
+
 /* What ends a thing, and the argument that then names nothing. */
 TEST(DeadIds)
 {
@@ -595,6 +672,7 @@ TEST(Nulls)
     kiriDefaultWorldDef(NULL);
     kiriDefaultSheetDef(NULL);
     kiriDefaultPinDef(NULL);
+    kiriDefaultDebugDraw(NULL);
     kiriDestroyWorld(NULL);
     assert_int_equal(kiriCreateWorld(NULL, &world), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriCreateWorld(&def, NULL), KIRI_ERROR_ARGUMENT);
@@ -674,16 +752,14 @@ TEST(OtherRanges)
     Host* host = &s.tape.host;
     kiriWorld* w = host->world;
     static const float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
-    kiriPinDef def = Host_PinDef(0.5f, 0.5f, 0.0f, 0.0f, 0.0f);
-    kiriPin pin;
-    kiriSheet sheet;
     kiriHit hit;
     kiriCut cut;
-    def.stiffness = -1.0f;
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriCreatePin(w, s.given.sheet, &def, &pin));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriWorld_Raycast(w, v, v, -0.1f, &sheet, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, v, -0.1f, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, (float[]){ 0.0f, 0.0f, 0.0f }, 1.0f, &hit));
+    static const float zero[3] = { 0.0f, 0.0f, 0.0f };
+    kiriDebugDraw draw = *s.given.draw;
+    draw.sheet = 12345;
+    REFUSED(KIRI_ERROR_ID, kiriWorld_DebugDraw(w, &draw));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, zero, 1.0f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriBlade_MoveRay(w, s.given.blade, v, zero, 1.0f));
     static const int32_t counts[3] = { 0, -1, INT32_MAX };
     for (int i = 0; i < 3; ++i) {
         REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, s.given.cut, v, counts[i]));
@@ -821,8 +897,8 @@ static void CutOn(Host* host, kiriCut cut, uint32_t* seed)
 /* A host that asks for changes only in every Nth tick keeps a copy of the mesh. */
 static void CopyEvery(int32_t every)
 {
-    Host h, *host = &h;
-    Host_Start(host);
+    START_HOST(own);
+    Host* host = &own;
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
     enum { MOST = 16384 };

@@ -521,41 +521,6 @@ TEST(OpensAtOnce)
 
 /* ---- Calls ---- */
 
-/* What is refused, and that it changes nothing. */
-TEST(Refusals)
-{
-    SCOPED(Stage, stage, Stage_Stop);
-    kiriBlade blade = 0;
-    float a[3] = { 0.0f, 0.5f, -1.0f }, b[3] = { 0.0f, 0.5f, 1.0f }, zero[3] = { 0.0f, 0.0f, 0.0f };
-    Stage_StartFlat(&stage, 8, 4);
-    kiriWorld* w = stage.host.world;
-    uint64_t hash = Host_Hash(&stage.host);
-    assert_int_equal(kiriBeginBlade(NULL, 0, &blade), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBeginBlade(w, 0, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBeginBlade(w, 12345, &blade), KIRI_ERROR_ID);
-    assert_int_equal(blade, 0);
-    assert_int_equal(kiriBlade_MoveEdge(w, 0, a, b), KIRI_ERROR_ID);
-    assert_int_equal(kiriBlade_MoveRay(w, stage.sheet, a, b, 1.0f), KIRI_ERROR_ID);
-    assert_int_equal(kiriBlade_End(w, stage.sheet), KIRI_ERROR_ID);
-    assert_true(Host_Hash(&stage.host) == hash);
-    Begin(&stage);
-    assert_true(Host_Hash(&stage.host) != hash);
-    hash = Host_Hash(&stage.host);
-    assert_int_equal(kiriBlade_MoveEdge(NULL, stage.blade, a, b), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, NULL, b), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, a, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, zero, 1.0f), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, b, 0.0f), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, a, b, NAN), KIRI_ERROR_ARGUMENT);
-    a[1] = INFINITY;
-    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, a, b), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriBlade_MoveRay(w, stage.blade, b, a, 1.0f), KIRI_ERROR_ARGUMENT);
-    assert_true(Host_Hash(&stage.host) == hash);
-    OK(kiriBlade_End(w, stage.blade));
-    assert_int_equal(kiriBlade_End(w, stage.blade), KIRI_ERROR_ID);
-    assert_int_equal(kiriBlade_MoveEdge(w, stage.blade, b, b), KIRI_ERROR_ID);
-}
-
 /* Edges of any size, and of none. */
 TEST(ExtremeEdges)
 {

@@ -335,26 +335,3 @@ TEST(OfOneSheet)
     CheckCounts(&stage.canvas, 4 + 6, 0, 0);
     End(&stage);
 }
-
-TEST(Faults)
-{
-    Stage stage;
-    Begin(&stage);
-    kiriDebugDraw draw = stage.canvas.draw;
-    assert_int_equal(kiriWorld_DebugDraw(NULL, &draw), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriWorld_DebugDraw(stage.host.world, NULL), KIRI_ERROR_ARGUMENT);
-    draw.cookie = 0;
-    assert_int_equal(kiriWorld_DebugDraw(stage.host.world, &draw), KIRI_ERROR_DEF);
-    draw = stage.canvas.draw;
-    draw.flags = 2 * KIRI_DRAW_ALL;
-    assert_int_equal(kiriWorld_DebugDraw(stage.host.world, &draw), KIRI_ERROR_ARGUMENT);
-    draw = stage.canvas.draw;
-    draw.size = 0.0f;
-    assert_int_equal(kiriWorld_DebugDraw(stage.host.world, &draw), KIRI_ERROR_ARGUMENT);
-    draw = stage.canvas.draw;
-    draw.sheet = 12345;
-    assert_int_equal(kiriWorld_DebugDraw(stage.host.world, &draw), KIRI_ERROR_ID);
-    assert_int_equal(stage.host.lines, 5);
-    kiriDefaultDebugDraw(NULL);
-    End(&stage);
-}

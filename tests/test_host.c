@@ -108,35 +108,6 @@ TEST(FadesMayBeginWithAnotherLook)
     }
 }
 
-TEST(SettingsAreChecked)
-{
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheetSettings good, bad;
-    START_HOST(host);
-    kiriSheet sheet = Hang(&host, &def);
-    OK(kiriSheet_GetSettings(host.world, sheet, &good));
-    uint64_t hash = Host_Hash(&host);
-#define REFUSED_SETTING(field, value, code)                                                                            \
-    bad = good;                                                                                                        \
-    bad.field = value;                                                                                                 \
-    assert_int_equal(kiriSheet_SetSettings(host.world, sheet, &bad), code);                                            \
-    assert_true(Host_Hash(&host) == hash)
-    REFUSED_SETTING(cookie, 0, KIRI_ERROR_DEF);
-    REFUSED_SETTING(material.density, 0.0f, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(material.poissonsRatio, 0.5f, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(maxFrames, 0, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(crumbArea, -1.0f, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(friction, -1.0f, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(contactThickness, NAN, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(touchesSheets, 2, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(iterations, 65, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(sleepSpeed, NAN, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(skinning, 2, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(timeStepping, 2, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(fadeTime, -1.0f, KIRI_ERROR_ARGUMENT);
-    REFUSED_SETTING(normals, 2, KIRI_ERROR_ARGUMENT);
-}
-
 /* ---- Points and impulses ----------------------------------------------------------------------------------------- */
 
 static kiriPointState PointAt(const Host* host, kiriSheet sheet, float u, float v)
@@ -252,8 +223,6 @@ TEST(PointNamesItsPiece)
     }
     assert_int_not_equal(pieces[0], pieces[1]);
     assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, &point), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_GetPoint(host.world, sheet, outside, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_GetPoint(host.world, 77, outside, &point), KIRI_ERROR_ID);
 }
 
 /* Of models and skinnings, with fades on the way. */
@@ -282,7 +251,6 @@ TEST(ImpulseIsMomentum)
             assert_true(fabs(after.angularMomentum[k] - before.angularMomentum[k] - moment) < 1e-8);
         }
         assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, outside, impulse), KIRI_ERROR_ARGUMENT);
-        assert_int_equal(kiriSheet_ApplyImpulse(host.world, sheet, at, NULL), KIRI_ERROR_ARGUMENT);
         OK(Host_Tick(&host, DT, 2));
     }
 }
@@ -360,22 +328,6 @@ TEST(WindIsNotOvertaken)
     }
 }
 
-TEST(WindIsChecked)
-{
-    kiriSheetDef def = Host_SmallDef();
-    START_HOST(host);
-    kiriSheet sheet = Hang(&host, &def);
-    uint64_t hash = Host_Hash(&host);
-    kiriWind bad[4] = { Wind(NAN, 0.0f, 0.0f, 1.0f, 0.0f), Wind(0.0f, 0.0f, 0.0f, -1.0f, 0.0f),
-                        Wind(0.0f, 0.0f, 0.0f, 1.0f, -1.0f), Wind(0.0f, 0.0f, 0.0f, 1.0f, 0.0f) };
-    bad[3].density = -1.0f;
-    for (int i = 0; i < 4; ++i) {
-        assert_int_equal(kiriSheet_SetWind(host.world, sheet, &bad[i]), KIRI_ERROR_ARGUMENT);
-    }
-    assert_int_equal(kiriSheet_SetWind(host.world, sheet, NULL), KIRI_ERROR_ARGUMENT);
-    assert_true(Host_Hash(&host) == hash);
-}
-
 /* ---- Pins -------------------------------------------------------------------------------------------------------- */
 
 /* Pins a point where it is, to an obstacle or, for 0, to the world. */
@@ -412,7 +364,6 @@ TEST(PinsBreak)
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
     OK(kiriPin_SetBreakForce(host.world, pins[0], (float)(3.0 * weight)));
     OK(kiriPin_SetBreakForce(host.world, pins[1], (float)(0.05 * weight)));
-    assert_int_equal(kiriPin_SetBreakForce(host.world, pins[1], -1.0f), KIRI_ERROR_ARGUMENT);
     OK(kiriPin_GetState(host.world, pins[1], &pinState));
     assert_true(pinState.breakForce == (float)(0.05 * weight));
     double most = 0.0;
@@ -784,7 +735,7 @@ TEST(TransformMovesAll)
 TEST(TransformIsChecked)
 {
     const float quarter[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
-    const float mirror[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f }, bad[3] = { 0.0f, NAN, 0.0f };
+    const float mirror[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f };
     kiriSheetDef def = Host_SmallDef();
     START_HOST(host);
     def.planar = 1;
@@ -792,14 +743,6 @@ TEST(TransformIsChecked)
     uint64_t hash = Host_Hash(&host);
     assert_int_equal(kiriSheet_Transform(host.world, sheet, quarter, away), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_Transform(host.world, sheet, mirror, away), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_Transform(host.world, sheet, NULL, away), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_SetVelocity(host.world, sheet, bad, away), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_SetVelocity(host.world, sheet, away, bad), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriFrame_SetPieceVelocity(host.world, 7, away, away), KIRI_ERROR_ID);
-    host.failAt = host.calls;
-    const float none[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    assert_int_equal(kiriSheet_Transform(host.world, sheet, none, away), KIRI_ERROR_MEMORY);
-    host.failAt = -1;
     assert_true(Host_Hash(&host) == hash);
 }
 
@@ -874,8 +817,6 @@ TEST(UserDataStays)
     assert_true(data == 1234567890123ull);
     OK(kiriSheet_GetUserData(host.world, detached, &data));
     assert_true(data == UINT64_MAX);
-    assert_int_equal(kiriSheet_GetUserData(host.world, 99, &data), KIRI_ERROR_ID);
-    assert_int_equal(kiriPin_GetUserData(host.world, pin, NULL), KIRI_ERROR_ARGUMENT);
 }
 
 /* ---- Solids ------------------------------------------------------------------------------------------------------ */
@@ -981,13 +922,6 @@ TEST(SolidIsClosed)
     CheckClosed(&solid, Host_Mesh(&host, sheet).vertexCount);
     assert_true(solid.positions[0] == x && VolumeOf(&solid) / 0.01 > 0.8 && VolumeOf(&solid) / 0.01 < 1.0);
     assert_true(fabs(VolumeOf(&again) / (double)def.material.thickness - VolumeOf(&solid) / 0.01) < 1e-3);
-    assert_int_equal(kiriSheet_GetSolid(host.world, sheet, -1.0f, &solid), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_GetSolid(host.world, sheet, 1.0f, NULL), KIRI_ERROR_ARGUMENT);
-    int64_t live = host.live;
-    host.failAt = host.calls; /* it takes one block */
-    assert_int_equal(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid), KIRI_ERROR_MEMORY);
-    host.failAt = -1;
-    assert_true(host.live == live);
 }
 
 /* ---- Axes -------------------------------------------------------------------------------------------------------- */

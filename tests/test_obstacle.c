@@ -304,26 +304,6 @@ TEST(WhereFloatsEndNothingMoves)
     }
 }
 
-TEST(StaleIdsAreRefused)
-{
-    START_HOST(host);
-    kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
-    kiriObstacle gone = Add(&host, &def), other = Add(&host, &def);
-    kiriSheet sheet = AddPlate(&host, 0.0f, 2.0f, 0.001f);
-    OK(kiriDestroyObstacle(host.world, gone));
-    const uint32_t ids[] = { 0, gone, sheet, other ^ 1u << 25 };
-    const float zero[6] = { 0 };
-    for (int i = 0; i < 4; ++i) {
-        kiriObstacleState was;
-        REFUSED(KIRI_ERROR_ID, kiriDestroyObstacle(host.world, ids[i]));
-        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetPose(host.world, ids[i], zero, def.rotation));
-        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetVelocity(host.world, ids[i], zero, zero));
-        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetSurfaceVelocity(host.world, ids[i], zero));
-        REFUSED(KIRI_ERROR_ID, kiriObstacle_SetMass(host.world, ids[i], 1.0f, zero, zero));
-        assert_int_equal(kiriObstacle_GetState(host.world, ids[i], &was), KIRI_ERROR_ID);
-    }
-}
-
 /* Half the contact thickness above the floor it comes to rest, and sleeps. The floor bears its weight all the time. */
 TEST(PlateRestsOnAFloor)
 {

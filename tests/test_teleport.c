@@ -429,11 +429,9 @@ TEST(Origin)
 TEST(OriginIsChecked)
 {
     static Everything all;
-    const float far[3] = { 0.0f, 3e38f, 0.0f }, nan[3] = { NAN, 0.0f, 0.0f };
+    const float far[3] = { 0.0f, 3e38f, 0.0f };
     StartEverything(&all);
     uint64_t hash = Host_Hash(&all.host);
-    assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, nan), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, far), KIRI_ERROR_ARGUMENT);
     assert_true(hash == Host_Hash(&all.host));
     Host_Stop(&all.host);
