@@ -165,6 +165,38 @@ TEST(Qualities)
     assert_int_equal(refused.framesAlong, 7);
 }
 
+/* Rectangles of all setups move, as slender as they may be; other numbers write nothing. */
+TEST(Setups)
+{
+    static const float sizes[][2] = { { 0.3f, 0.3f }, { 1.5f, 1.0f }, { 0.03f, 0.6f }, { 5.12f, 0.02f } };
+    static const float bad[][2] = { { 0.0f, 1.0f },  { 1.0f, -1.0f },        { NAN, 1.0f },     { 1.0f, NAN },
+                                    { 2.6f, 0.01f }, { INFINITY, INFINITY }, { 1.0f, INFINITY } };
+    kiriSetup setup, refused = { .columns = 7 };
+    for (int32_t k = 0; k < KIRI_SETUP_COUNT * 4; ++k) {
+        const float* size = sizes[k % 4];
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
+        kiriSheet sheet;
+        OK(kiriGetSetup(k / 4, size[0], size[1], &setup));
+        def.material = setup.material;
+        def.model = setup.model;
+        def.skinning = setup.skinning;
+        def.gridResolution = setup.gridResolution;
+        def.frameCount = setup.frameCount;
+        def.iterations = setup.iterations;
+        assert_true(setup.columns >= 4 && setup.rows >= 4 && (setup.columns > setup.rows) == (size[0] > size[1]));
+        OK(kiriCreateRectangle(host.world, size[0], size[1], setup.columns, setup.rows, &def, &sheet));
+        OK(Host_Tick(&host, 1.0f / 60.0f, setup.substeps));
+    }
+    for (int k = 0; k < 7; ++k) {
+        assert_int_equal(kiriGetSetup(KIRI_SETUP_CARD, bad[k][0], bad[k][1], &refused), KIRI_ERROR_ARGUMENT);
+    }
+    assert_int_equal(kiriGetSetup(-1, 1.0f, 1.0f, &refused), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetSetup(KIRI_SETUP_COUNT, 1.0f, 1.0f, &refused), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriGetSetup(KIRI_SETUP_CARD, 1.0f, 1.0f, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(refused.columns, 7);
+}
+
 TEST(WorldDefs)
 {
     Host plain;

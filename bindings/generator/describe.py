@@ -30,6 +30,7 @@ PARAMETERS = {
     "kiriSheet_IsAwake.awake": {"flag": True},
     "kiriGetMaterial.preset": {"enum": "kiriMaterialPreset"},
     "kiriGetQuality.preset": {"enum": "kiriQualityPreset"},
+    "kiriGetSetup.preset": {"enum": "kiriSetupPreset"},
     "kiriGetStageName.stage": {"enum": "kiriStage"},
     "kiriGetResultName.result": {"enum": "kiriResultCode"},
     "kiriGetResultText.result": {"enum": "kiriResultCode"},

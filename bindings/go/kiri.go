@@ -226,6 +226,32 @@ var namesQualityPreset = map[QualityPreset]string{
 
 func (v QualityPreset) String() string { return namesQualityPreset[v] }
 
+type SetupPreset int32
+
+const (
+	SetupCurtain SetupPreset = 0
+	SetupPaper   SetupPreset = 1
+	SetupFlag    SetupPreset = 2
+	SetupRibbon  SetupPreset = 3
+	SetupRubber  SetupPreset = 4
+	SetupCard    SetupPreset = 5
+	SetupFoil    SetupPreset = 6
+	SetupCount   SetupPreset = 7
+)
+
+var namesSetupPreset = map[SetupPreset]string{
+	0: "KIRI_SETUP_CURTAIN",
+	1: "KIRI_SETUP_PAPER",
+	2: "KIRI_SETUP_FLAG",
+	3: "KIRI_SETUP_RIBBON",
+	4: "KIRI_SETUP_RUBBER",
+	5: "KIRI_SETUP_CARD",
+	6: "KIRI_SETUP_FOIL",
+	7: "KIRI_SETUP_COUNT",
+}
+
+func (v SetupPreset) String() string { return namesSetupPreset[v] }
+
 // How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.
 type Model int32
 
@@ -459,9 +485,9 @@ type Profile struct {
 	PointsChanged int32
 	// Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 	LinksChanged int32
-	// sheets in which a cut took effect
+	// sheets in which a cut took effect; linear systems, large and small
 	Commits int32
-	// linear systems, large and small
+	// sheets in which a cut took effect; linear systems, large and small
 	SystemsSolved int32
 	// planes given to the solver: by the host, by obstacles, and between sheets
 	Contacts int32
@@ -497,9 +523,7 @@ type Material struct {
 	Detail int32
 }
 
-// Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
-// BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
-// (accuracy).
+// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 type Quality struct {
 	// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 	FramesAlong int32
@@ -508,6 +532,27 @@ type Quality struct {
 	// for the sheet def
 	Iterations int32
 	// for kiriWorld_Tick
+	Substeps int32
+}
+
+// Settings to begin with, for a rectangle (manual, accuracy).
+type Setup struct {
+	Material Material
+	// for the sheet def, as the material
+	Model int32
+	// for the sheet def, as the material
+	Skinning int32
+	// for the sheet def, as the material
+	GridResolution int32
+	// for the sheet def, as the material
+	FrameCount int32
+	// for the sheet def, as the material
+	Iterations int32
+	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+	Columns int32
+	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+	Rows int32
+	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 	Substeps int32
 }
 
@@ -566,9 +611,11 @@ type SheetDef struct {
 	MaxFrames int32
 	// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
 	// beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
-	// default 0.95
+	// default 0.95, 0
 	RigidWeight float32
-	// default 0
+	// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+	// beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
+	// default 0.95, 0
 	RigidArea float32
 	// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 	CrumbArea float32
@@ -839,13 +886,13 @@ type FrameState struct {
 	Position [3]float32
 	// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
 	Rotation [9]float32
-	// m/s
+	// m/s, rad/s
 	Velocity [3]float32
-	// rad/s
+	// m/s, rad/s
 	AngularVelocity [3]float32
-	// m^2 of its region
+	// m^2 of its region; kg
 	Area float32
-	// kg
+	// m^2 of its region; kg
 	Mass float32
 	// 1: moved by the host, see kiriFrame_Hold
 	Held int32
@@ -1045,6 +1092,7 @@ var _ [0]struct{} = [unsafe.Sizeof(Event{}) - C.sizeof_kiriEvent]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Profile{}) - C.sizeof_kiriProfile]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Material{}) - C.sizeof_kiriMaterial]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Quality{}) - C.sizeof_kiriQuality]struct{}{}
+var _ [0]struct{} = [unsafe.Sizeof(Setup{}) - C.sizeof_kiriSetup]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PaperOptions{}) - C.sizeof_kiriPaperOptions]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(SheetSettings{}) - C.sizeof_kiriSheetSettings]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Fold{}) - C.sizeof_kiriFold]struct{}{}
@@ -1294,9 +1342,8 @@ func GetResultText(result ResultCode) string {
 
 // Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
 // points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
-// KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids
-// is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for
-// new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
+// KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT: no ids are
+// left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1519,7 +1566,7 @@ var poolGetMaterial pool[struct {
 	material Material
 }]
 
-// Gets the numbers of a preset, KIRI_MATERIAL_...
+// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 func GetMaterial(preset MaterialPreset) (Material, error) {
 	var made0 Material
 	block := poolGetMaterial.take()
@@ -1535,7 +1582,7 @@ var poolGetQuality pool[struct {
 	quality Quality
 }]
 
-// Gets the numbers of a preset, KIRI_QUALITY_...
+// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 func GetQuality(preset QualityPreset) (Quality, error) {
 	var made0 Quality
 	block := poolGetQuality.take()
@@ -1545,6 +1592,22 @@ func GetQuality(preset QualityPreset) (Quality, error) {
 		return made0, err
 	}
 	return answer.quality, nil
+}
+
+var poolGetSetup pool[struct {
+	setup Setup
+}]
+
+// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+func GetSetup(preset SetupPreset, width float32, height float32) (Setup, error) {
+	var made0 Setup
+	block := poolGetSetup.take()
+	result := C.kiriGetSetup(C.int32_t(preset), C.float(width), C.float(height), (*C.kiriSetup)(unsafe.Pointer(&block.setup)))
+	answer := poolGetSetup.give(block)
+	if err := failure(nil, "kiriGetSetup", result, false); err != nil {
+		return made0, err
+	}
+	return answer.setup, nil
 }
 
 var poolDefaultSheetDef pool[struct {
@@ -3335,6 +3398,7 @@ var functions = map[string]string{
 	"kiriGetStageName":                ".GetStageName",
 	"kiriGetMaterial":                 ".GetMaterial",
 	"kiriGetQuality":                  ".GetQuality",
+	"kiriGetSetup":                    ".GetSetup",
 	"kiriDefaultSheetDef":             ".DefaultSheetDef",
 	"kiriCreateSheet":                 "World.CreateSheet",
 	"kiriDestroySheet":                "Sheet.Destroy",

@@ -143,6 +143,17 @@ export enum QualityPreset {
     Count = 3,
 }
 
+export enum SetupPreset {
+    Curtain = 0,
+    Paper = 1,
+    Flag = 2,
+    Ribbon = 3,
+    Rubber = 4,
+    Card = 5,
+    Foil = 6,
+    Count = 7,
+}
+
 /** How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12. */
 export enum Model {
     /** rigid frames joined by links: paper, foil, stiff cloth */
@@ -278,11 +289,11 @@ export function defaultWorldDef(into?: WorldDef): WorldDef;
 
 /** Progress of a replay. Set all fields to zero before the first call. */
 export class Replay {
-    /** bytes of the recording that were read */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     offset: number;
-    /** calls made so far */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     calls: number;
-    /** ticks made so far, without refused ones */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     ticks: number;
     /** bytes of the note where the replay stopped, in the recording; else null */
     note: Uint8Array | null;
@@ -290,11 +301,11 @@ export class Replay {
 }
 /** What a host gives as Replay: what is left out is 0. */
 export interface ReplayGiven {
-    /** bytes of the recording that were read */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     offset?: number;
-    /** calls made so far */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     calls?: number;
-    /** ticks made so far, without refused ones */
+    /** bytes of the recording that were read; calls and ticks made, without refused ticks */
     ticks?: number;
 }
 
@@ -335,9 +346,9 @@ export class Profile {
     pointsChanged: number;
     /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     linksChanged: number;
-    /** sheets in which a cut took effect */
+    /** sheets in which a cut took effect; linear systems, large and small */
     commits: number;
-    /** linear systems, large and small */
+    /** sheets in which a cut took effect; linear systems, large and small */
     systemsSolved: number;
     /** planes given to the solver: by the host, by obstacles, and between sheets */
     contacts: number;
@@ -372,9 +383,9 @@ export interface ProfileGiven {
     pointsChanged?: number;
     /** Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     linksChanged?: number;
-    /** sheets in which a cut took effect */
+    /** sheets in which a cut took effect; linear systems, large and small */
     commits?: number;
-    /** linear systems, large and small */
+    /** sheets in which a cut took effect; linear systems, large and small */
     systemsSolved?: number;
     /** planes given to the solver: by the host, by obstacles, and between sheets */
     contacts?: number;
@@ -433,9 +444,7 @@ export interface MaterialGiven {
     detail?: number;
 }
 
-/** Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
- *  BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
- *  (accuracy). */
+/** Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy). */
 export class Quality {
     /** control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     framesAlong: number;
@@ -444,6 +453,27 @@ export class Quality {
     /** for the sheet def */
     iterations: number;
     /** for World.tick */
+    substeps: number;
+}
+
+/** Settings to begin with, for a rectangle (manual, accuracy). */
+export class Setup {
+    material: Material;
+    /** for the sheet def, as the material */
+    model: number;
+    /** for the sheet def, as the material */
+    skinning: number;
+    /** for the sheet def, as the material */
+    gridResolution: number;
+    /** for the sheet def, as the material */
+    frameCount: number;
+    /** for the sheet def, as the material */
+    iterations: number;
+    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
+    columns: number;
+    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
+    rows: number;
+    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
     substeps: number;
 }
 
@@ -519,9 +549,11 @@ export class SheetDef {
     maxFrames: number;
     /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
      *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
-     *  default 0.95 */
+     *  default 0.95, 0 */
     rigidWeight: number;
-    /** default 0 */
+    /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+     *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
+     *  default 0.95, 0 */
     rigidArea: number;
     /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea: number;
@@ -597,9 +629,11 @@ export interface SheetDefGiven {
     maxFrames?: number;
     /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
      *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
-     *  default 0.95 */
+     *  default 0.95, 0 */
     rigidWeight?: number;
-    /** default 0 */
+    /** Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
+     *  beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy).
+     *  default 0.95, 0 */
     rigidArea?: number;
     /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea?: number;
@@ -934,13 +968,13 @@ export class FrameState {
     position: number[];
     /** columns: direction of u, of v, normal; an affine frame: columns of A, which stretch */
     rotation: number[];
-    /** m/s */
+    /** m/s, rad/s */
     velocity: number[];
-    /** rad/s */
+    /** m/s, rad/s */
     angularVelocity: number[];
-    /** m^2 of its region */
+    /** m^2 of its region; kg */
     area: number;
-    /** kg */
+    /** m^2 of its region; kg */
     mass: number;
     /** 1: moved by the host, see Frame.hold */
     held: boolean;
@@ -1259,11 +1293,14 @@ export function fitBudget(profile: ProfileGiven, microseconds: number, budget: B
 /** Returns the name of a stage; "" for another number. */
 export function getStageName(stage: Stage): string;
 
-/** Gets the numbers of a preset, KIRI_MATERIAL_... */
+/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
 export function getMaterial(preset: MaterialPreset, into?: Material): Material;
 
-/** Gets the numbers of a preset, KIRI_QUALITY_... */
+/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
 export function getQuality(preset: QualityPreset, into?: Quality): Quality;
+
+/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
+export function getSetup(preset: SetupPreset, width: number, height: number, into?: Setup): Setup;
 
 /** Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 export function fillRectangle(width: number, height: number, columns: number, rows: number): { restPositions: Float32Array, indices: Int32Array };
@@ -1279,10 +1316,9 @@ export class World {
     [Symbol.dispose](): void;
     /** Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending
      *  cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have
-     *  work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts
-     *  or ids is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are
-     *  left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
-     *  stopped. */
+     *  work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT:
+     *  no ids are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that
+     *  were stopped. */
     tick(dt: number, substeps: number): ResultCode;
     /** Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next
      *  one. */

@@ -22,6 +22,8 @@ export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Sample
 export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Silk: 5, Shirting: 6,
     Wool: 7, Denim: 8, Jersey: 9, Count: 10 });
 export const QualityPreset = enumeration({ Fast: 0, Balanced: 1, Accurate: 2, Count: 3 });
+export const SetupPreset = enumeration({ Curtain: 0, Paper: 1, Flag: 2, Ribbon: 3, Rubber: 4, Card: 5, Foil: 6, Count:
+    7 });
 export const Model = enumeration({ Links: 0, Affine: 1, Points: 2 });
 export const Skinning = enumeration({ Linear: 0, Smooth: 1 });
 export const TimeStepping = enumeration({ SecondOrder: 0, Euler: 1 });
@@ -53,6 +55,8 @@ export const layouts = {
     kiriMaterial: { size: 40, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
         flexDamping: 20, yieldStress: 24, hardening: 28, slack: 32, detail: 36 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
+    kiriSetup: { size: 72, fields: { material: 0, model: 40, skinning: 44, gridResolution: 48, frameCount: 52,
+        iterations: 56, columns: 60, rows: 64, substeps: 68 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
     kiriSheetDef: { size: 228, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
@@ -412,6 +416,31 @@ function readQuality(o, at, world) {
     o.gridResolution = I32[(at + 4) >> 2];
     o.iterations = I32[(at + 8) >> 2];
     o.substeps = I32[(at + 12) >> 2];
+    return o;
+}
+
+export class Setup {
+    material = new Material();
+    model = 0;
+    skinning = 0;
+    gridResolution = 0;
+    frameCount = 0;
+    iterations = 0;
+    columns = 0;
+    rows = 0;
+    substeps = 0;
+}
+
+function readSetup(o, at, world) {
+    readMaterial(o.material, at, world);
+    o.model = I32[(at + 40) >> 2];
+    o.skinning = I32[(at + 44) >> 2];
+    o.gridResolution = I32[(at + 48) >> 2];
+    o.frameCount = I32[(at + 52) >> 2];
+    o.iterations = I32[(at + 56) >> 2];
+    o.columns = I32[(at + 60) >> 2];
+    o.rows = I32[(at + 64) >> 2];
+    o.substeps = I32[(at + 68) >> 2];
     return o;
 }
 
@@ -1565,6 +1594,14 @@ export function getQuality(preset, into = new Quality()) {
         fail(null, $result, "kiriGetQuality");
     }
     return readQuality(into, scratch, null);
+}
+
+export function getSetup(preset, width, height, into = new Setup()) {
+    const $result = wasm.kiriGetSetup(preset, width, height, scratch);
+    if ($result < 0) {
+        fail(null, $result, "kiriGetSetup");
+    }
+    return readSetup(into, scratch, null);
 }
 
 export function fillRectangle(width, height, columns, rows) {

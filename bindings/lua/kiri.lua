@@ -40,6 +40,7 @@ typedef struct kiriEvent kiriEvent;
 typedef struct kiriProfile kiriProfile;
 typedef struct kiriMaterial kiriMaterial;
 typedef struct kiriQuality kiriQuality;
+typedef struct kiriSetup kiriSetup;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
@@ -84,6 +85,7 @@ struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; 
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
+struct kiriSetup { kiriMaterial material; int32_t model; int32_t skinning; int32_t gridResolution; int32_t frameCount; int32_t iterations; int32_t columns; int32_t rows; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
@@ -138,6 +140,7 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 const char* kiriGetStageName(int32_t stage);
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
+kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 void kiriDefaultSheetDef(kiriSheetDef* def);
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
@@ -295,6 +298,15 @@ kiri.QUALITY_BALANCED = 1
 kiri.QUALITY_ACCURATE = 2
 kiri.QUALITY_COUNT = 3
 kiri.QualityPreset = {[0] = "FAST", [1] = "BALANCED", [2] = "ACCURATE", [3] = "COUNT"}
+kiri.SETUP_CURTAIN = 0
+kiri.SETUP_PAPER = 1
+kiri.SETUP_FLAG = 2
+kiri.SETUP_RIBBON = 3
+kiri.SETUP_RUBBER = 4
+kiri.SETUP_CARD = 5
+kiri.SETUP_FOIL = 6
+kiri.SETUP_COUNT = 7
+kiri.SetupPreset = {[0] = "CURTAIN", [1] = "PAPER", [2] = "FLAG", [3] = "RIBBON", [4] = "RUBBER", [5] = "CARD", [6] = "FOIL", [7] = "COUNT"}
 kiri.MODEL_LINKS = 0
 kiri.MODEL_AFFINE = 1
 kiri.MODEL_POINTS = 2
@@ -650,6 +662,7 @@ structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame 
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number", yieldStress = "number", hardening = "number", slack = "number", detail = "number"}}
 structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
+structs.kiriSetup = {fields = {material = "kiriMaterial", model = "number", skinning = "number", gridResolution = "number", frameCount = "number", iterations = "number", columns = "number", rows = "number", substeps = "number"}}
 structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
 structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", weldDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
 structs.kiriSheetSettings = {fields = {cookie = "number", material = "kiriMaterial", maxFrames = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", iterations = "number", sleepSpeed = "number", skinning = "number", timeStepping = "number", fadeTime = "number", normals = "number"}}
@@ -742,9 +755,9 @@ end
 
 --- Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
 --- points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
---- KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids
---- is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for
---- new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
+--- KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT: no ids
+--- are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
+--- stopped.
 function World:tick(dt, substeps)
     local world = self
     local result = C.kiriWorld_Tick(world.c, dt, substeps)
@@ -912,7 +925,7 @@ function kiri.getStageName(stage)
     return ffi.string(C.kiriGetStageName(stage))
 end
 
---- Gets the numbers of a preset, KIRI_MATERIAL_...
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 function kiri.getMaterial(preset, material)
     material = material or new.kiriMaterial()
     local result = C.kiriGetMaterial(preset, material)
@@ -920,12 +933,20 @@ function kiri.getMaterial(preset, material)
     return material
 end
 
---- Gets the numbers of a preset, KIRI_QUALITY_...
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 function kiri.getQuality(preset, quality)
     quality = quality or new.kiriQuality()
     local result = C.kiriGetQuality(preset, quality)
     if result < 0 then fail(nil, "kiriGetQuality", result, false) end
     return quality
+end
+
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+function kiri.getSetup(preset, width, height, setup)
+    setup = setup or new.kiriSetup()
+    local result = C.kiriGetSetup(preset, width, height, setup)
+    if result < 0 then fail(nil, "kiriGetSetup", result, false) end
+    return setup
 end
 
 --- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On

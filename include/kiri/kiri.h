@@ -120,9 +120,8 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
    points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
-   KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids is
-   missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for new
-   frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped. */
+   KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT: no ids are
+   left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
 /* Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one. */
@@ -154,9 +153,7 @@ KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t 
 
 /* Progress of a replay. Set all fields to zero before the first call. */
 typedef struct kiriReplay {
-    int64_t offset;   /* bytes of the recording that were read */
-    int64_t calls;    /* calls made so far */
-    int64_t ticks;    /* ticks made so far, without refused ones */
+    int64_t offset, calls, ticks; /* bytes of the recording that were read; calls and ticks made, without refused ticks */
     const void* note; /* bytes of the note where the replay stopped, in the recording; else null */
     int32_t noteCount;
 } kiriReplay;
@@ -249,8 +246,7 @@ typedef struct kiriProfile {
     int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
     /* Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts). */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
-    int32_t commits;       /* sheets in which a cut took effect */
-    int32_t systemsSolved; /* linear systems, large and small */
+    int32_t commits, systemsSolved; /* sheets in which a cut took effect; linear systems, large and small */
     int32_t contacts;      /* planes given to the solver: by the host, by obstacles, and between sheets */
     int32_t sheetPairs;    /* pairs of sheets or pieces that are near each other and not both asleep */
     /* The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m. */
@@ -294,22 +290,29 @@ enum kiriMaterialPreset {
     KIRI_MATERIAL_COUNT
 };
 
-/* Gets the numbers of a preset, KIRI_MATERIAL_... */
-KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
-
-/* Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %, BALANCED
-   0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual (accuracy). */
+/* Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy). */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
-    int32_t gridResolution; /* for the sheet def */
-    int32_t iterations;     /* for the sheet def */
+    int32_t gridResolution, iterations; /* for the sheet def */
     int32_t substeps;       /* for kiriWorld_Tick */
 } kiriQuality;
 
 enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
-/* Gets the numbers of a preset, KIRI_QUALITY_... */
+/* Settings to begin with, for a rectangle (manual, accuracy). */
+typedef struct kiriSetup {
+    kiriMaterial material;
+    int32_t model, skinning, gridResolution, frameCount, iterations; /* for the sheet def, as the material */
+    int32_t columns, rows, substeps; /* for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s */
+} kiriSetup;
+
+enum kiriSetupPreset { KIRI_SETUP_CURTAIN, KIRI_SETUP_PAPER, KIRI_SETUP_FLAG, KIRI_SETUP_RIBBON, KIRI_SETUP_RUBBER,
+                       KIRI_SETUP_CARD, KIRI_SETUP_FOIL, KIRI_SETUP_COUNT };
+
+/* Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
+KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
+KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 
 /* How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12. */
 enum kiriModel {
@@ -365,8 +368,7 @@ typedef struct kiriSheetDef {
     int32_t maxFrames; /* re-sampling stops here; default 256 */
     /* Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames
        beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). */
-    float rigidWeight; /* default 0.95 */
-    float rigidArea;   /* default 0 */
+    float rigidWeight, rigidArea; /* default 0.95, 0 */
     float crumbArea;   /* m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     float friction; /* of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     float contactThickness; /* m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
@@ -699,10 +701,8 @@ typedef struct kiriFrameState {
     float restPoint[2];       /* m */
     float position[3];        /* m, world: of the rest point */
     float rotation[9];        /* columns: direction of u, of v, normal; an affine frame: columns of A, which stretch */
-    float velocity[3];        /* m/s */
-    float angularVelocity[3]; /* rad/s */
-    float area;               /* m^2 of its region */
-    float mass;               /* kg */
+    float velocity[3], angularVelocity[3]; /* m/s, rad/s */
+    float area, mass;         /* m^2 of its region; kg */
     int32_t held;             /* 1: moved by the host, see kiriFrame_Hold */
 } kiriFrameState;
 

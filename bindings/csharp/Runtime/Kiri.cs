@@ -485,8 +485,7 @@ namespace Kiri
 
         /// <summary>Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
         /// pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
-        /// still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if
-        /// memory for contacts or ids is missing; sheets moved without touching each other if memory for that is.
+        /// still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget).
         /// KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED:
         /// events name sheets that were stopped.</summary>
         public Status Tick(float dt, int substeps)
@@ -835,7 +834,8 @@ namespace Kiri
             return World.Text(Native.kiriGetStageName((int)stage));
         }
 
-        /// <summary>Gets the numbers of a preset, KIRI_MATERIAL_...</summary>
+        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+        /// most).</summary>
         public static Material GetMaterial(MaterialPreset preset)
         {
             var materialValue = new Material();
@@ -843,12 +843,22 @@ namespace Kiri
             return materialValue;
         }
 
-        /// <summary>Gets the numbers of a preset, KIRI_QUALITY_...</summary>
+        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+        /// most).</summary>
         public static Quality GetQuality(QualityPreset preset)
         {
             var qualityValue = new Quality();
             World.CheckStatic(Native.kiriGetQuality((int)preset, &qualityValue));
             return qualityValue;
+        }
+
+        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+        /// most).</summary>
+        public static Setup GetSetup(SetupPreset preset, float width, float height)
+        {
+            var setupValue = new Setup();
+            World.CheckStatic(Native.kiriGetSetup((int)preset, width, height, &setupValue));
+            return setupValue;
         }
 
         /// <summary>Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices.</summary>

@@ -444,6 +444,18 @@ namespace Kiri
         Count = 3,
     }
 
+    public enum SetupPreset
+    {
+        Curtain = 0,
+        Paper = 1,
+        Flag = 2,
+        Ribbon = 3,
+        Rubber = 4,
+        Card = 5,
+        Foil = 6,
+        Count = 7,
+    }
+
     /// <summary>How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.</summary>
     public enum Model
     {
@@ -590,11 +602,11 @@ namespace Kiri
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeReplay
     {
-        /// <summary>bytes of the recording that were read</summary>
+        /// <summary>bytes of the recording that were read; calls and ticks made, without refused ticks</summary>
         public long Offset;
-        /// <summary>calls made so far</summary>
+        /// <summary>bytes of the recording that were read; calls and ticks made, without refused ticks</summary>
         public long Calls;
-        /// <summary>ticks made so far, without refused ones</summary>
+        /// <summary>bytes of the recording that were read; calls and ticks made, without refused ticks</summary>
         public long Ticks;
         /// <summary>bytes of the note where the replay stopped, in the recording; else null</summary>
         public void* Note;
@@ -659,9 +671,9 @@ namespace Kiri
         /// <summary>Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals:
         /// kiriCounts).</summary>
         public int LinksChanged;
-        /// <summary>sheets in which a cut took effect</summary>
+        /// <summary>sheets in which a cut took effect; linear systems, large and small</summary>
         public int Commits;
-        /// <summary>linear systems, large and small</summary>
+        /// <summary>sheets in which a cut took effect; linear systems, large and small</summary>
         public int SystemsSolved;
         /// <summary>planes given to the solver: by the host, by obstacles, and between sheets</summary>
         public int Contacts;
@@ -699,9 +711,7 @@ namespace Kiri
         public int Detail;
     }
 
-    /// <summary>Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
-    /// BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
-    /// (accuracy).</summary>
+    /// <summary>Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Quality
     {
@@ -712,6 +722,29 @@ namespace Kiri
         /// <summary>for the sheet def</summary>
         public int Iterations;
         /// <summary>for kiriWorld_Tick</summary>
+        public int Substeps;
+    }
+
+    /// <summary>Settings to begin with, for a rectangle (manual, accuracy).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Setup
+    {
+        public Material Material;
+        /// <summary>for the sheet def, as the material</summary>
+        public int Model;
+        /// <summary>for the sheet def, as the material</summary>
+        public int Skinning;
+        /// <summary>for the sheet def, as the material</summary>
+        public int GridResolution;
+        /// <summary>for the sheet def, as the material</summary>
+        public int FrameCount;
+        /// <summary>for the sheet def, as the material</summary>
+        public int Iterations;
+        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
+        public int Columns;
+        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
+        public int Rows;
+        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
         public int Substeps;
     }
 
@@ -776,9 +809,11 @@ namespace Kiri
         public int MaxFrames;
         /// <summary>Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new
         /// frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual,
-        /// accuracy). default 0.95</summary>
+        /// accuracy). default 0.95, 0</summary>
         public float RigidWeight;
-        /// <summary>default 0</summary>
+        /// <summary>Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new
+        /// frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual,
+        /// accuracy). default 0.95, 0</summary>
         public float RigidArea;
         /// <summary>m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0</summary>
         public float CrumbArea;
@@ -1096,13 +1131,13 @@ namespace Kiri
         public Float3 Position;
         /// <summary>columns: direction of u, of v, normal; an affine frame: columns of A, which stretch</summary>
         public Float9 Rotation;
-        /// <summary>m/s</summary>
+        /// <summary>m/s, rad/s</summary>
         public Float3 Velocity;
-        /// <summary>rad/s</summary>
+        /// <summary>m/s, rad/s</summary>
         public Float3 AngularVelocity;
-        /// <summary>m^2 of its region</summary>
+        /// <summary>m^2 of its region; kg</summary>
         public float Area;
-        /// <summary>kg</summary>
+        /// <summary>m^2 of its region; kg</summary>
         public float Mass;
         /// <summary>1: moved by the host, see kiriFrame_Hold</summary>
         public Flag Held;
@@ -1481,6 +1516,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriGetQuality(int preset, Quality* quality);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriGetSetup(int preset, float width, float height, Setup* setup);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern void kiriDefaultSheetDef(SheetDef* @def);

@@ -55,6 +55,14 @@ const QUALITY_FAST = 0
 const QUALITY_BALANCED = 1
 const QUALITY_ACCURATE = 2
 const QUALITY_COUNT = 3
+const SETUP_CURTAIN = 0
+const SETUP_PAPER = 1
+const SETUP_FLAG = 2
+const SETUP_RIBBON = 3
+const SETUP_RUBBER = 4
+const SETUP_CARD = 5
+const SETUP_FOIL = 6
+const SETUP_COUNT = 7
 const MODEL_LINKS = 0
 const MODEL_AFFINE = 1
 const MODEL_POINTS = 2
@@ -110,6 +118,9 @@ static func get_material(preset):
 
 static func get_quality(preset):
 	return Native.new().get_quality(preset)
+
+static func get_setup(preset, width, height):
+	return Native.new().get_setup(preset, width, height)
 
 static func default_sheet_def():
 	return Native.new().default_sheet_def()

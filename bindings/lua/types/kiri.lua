@@ -54,6 +54,14 @@ kiri.QUALITY_FAST = 0
 kiri.QUALITY_BALANCED = 1
 kiri.QUALITY_ACCURATE = 2
 kiri.QUALITY_COUNT = 3
+kiri.SETUP_CURTAIN = 0
+kiri.SETUP_PAPER = 1
+kiri.SETUP_FLAG = 2
+kiri.SETUP_RIBBON = 3
+kiri.SETUP_RUBBER = 4
+kiri.SETUP_CARD = 5
+kiri.SETUP_FOIL = 6
+kiri.SETUP_COUNT = 7
 kiri.MODEL_LINKS = 0
 kiri.MODEL_AFFINE = 1
 kiri.MODEL_POINTS = 2
@@ -111,9 +119,9 @@ kiri.DRAW_ALL = 2047
 
 --- Progress of a replay. Set all fields to zero before the first call.
 ---@class kiri.Replay
----@field offset? integer # bytes of the recording that were read
----@field calls? integer # calls made so far
----@field ticks? integer # ticks made so far, without refused ones
+---@field offset? integer # bytes of the recording that were read; calls and ticks made, without refused ticks
+---@field calls? integer # bytes of the recording that were read; calls and ticks made, without refused ticks
+---@field ticks? integer # bytes of the recording that were read; calls and ticks made, without refused ticks
 ---@field note? number[]|ffi.cdata* # bytes of the note where the replay stopped, in the recording; else null
 ---@field noteCount? integer
 
@@ -144,8 +152,8 @@ kiri.DRAW_ALL = 2047
 ---@field verticesChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 ---@field pointsChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
 ---@field linksChanged? integer # Changes by commits: cells, weights of cells, of vertices and of collision points, links (totals: kiriCounts).
----@field commits? integer # sheets in which a cut took effect
----@field systemsSolved? integer # linear systems, large and small
+---@field commits? integer # sheets in which a cut took effect; linear systems, large and small
+---@field systemsSolved? integer # sheets in which a cut took effect; linear systems, large and small
 ---@field contacts? integer # planes given to the solver: by the host, by obstacles, and between sheets
 ---@field sheetPairs? integer # pairs of sheets or pieces that are near each other and not both asleep
 ---@field largestJump? number # The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.
@@ -164,14 +172,24 @@ kiri.DRAW_ALL = 2047
 ---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
 ---@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
 
---- Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
---- BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
---- (accuracy).
+--- Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 ---@class kiri.Quality
 ---@field framesAlong? integer # control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 ---@field gridResolution? integer # for the sheet def
 ---@field iterations? integer # for the sheet def
 ---@field substeps? integer # for kiriWorld_Tick
+
+--- Settings to begin with, for a rectangle (manual, accuracy).
+---@class kiri.Setup
+---@field material? kiri.Material
+---@field model? integer # for the sheet def, as the material
+---@field skinning? integer # for the sheet def, as the material
+---@field gridResolution? integer # for the sheet def, as the material
+---@field frameCount? integer # for the sheet def, as the material
+---@field iterations? integer # for the sheet def, as the material
+---@field columns? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+---@field rows? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+---@field substeps? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 
 --- Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder.
 ---@class kiri.PaperOptions
@@ -201,8 +219,8 @@ kiri.DRAW_ALL = 2047
 ---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
 ---@field framePoints? number[]|ffi.cdata* # 2 floats a frame, or null
 ---@field maxFrames? integer # re-sampling stops here; default 256
----@field rigidWeight? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95
----@field rigidArea? number # default 0
+---@field rigidWeight? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95, 0
+---@field rigidArea? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95, 0
 ---@field crumbArea? number # m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 ---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
@@ -368,10 +386,10 @@ kiri.DRAW_ALL = 2047
 ---@field restPoint? number[]|ffi.cdata* # m
 ---@field position? number[]|ffi.cdata* # m, world: of the rest point
 ---@field rotation? number[]|ffi.cdata* # columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
----@field velocity? number[]|ffi.cdata* # m/s
----@field angularVelocity? number[]|ffi.cdata* # rad/s
----@field area? number # m^2 of its region
----@field mass? number # kg
+---@field velocity? number[]|ffi.cdata* # m/s, rad/s
+---@field angularVelocity? number[]|ffi.cdata* # m/s, rad/s
+---@field area? number # m^2 of its region; kg
+---@field mass? number # m^2 of its region; kg
 ---@field held? boolean|integer # 1: moved by the host, see kiriFrame_Hold
 
 --- Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density
@@ -601,9 +619,9 @@ function kiri.defaultWorldDef(def) end
 
 --- Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
 --- points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
---- KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids
---- is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for
---- new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
+--- KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT: no ids
+--- are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
+--- stopped.
 ---@param dt number
 ---@param substeps integer
 ---@return boolean # work is left for later ticks
@@ -713,17 +731,25 @@ function kiri.fitBudget(profile, microseconds, budget) end
 ---@return string
 function kiri.getStageName(stage) end
 
---- Gets the numbers of a preset, KIRI_MATERIAL_...
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 ---@param preset integer
 ---@param material? kiri.Material
 ---@return kiri.Material
 function kiri.getMaterial(preset, material) end
 
---- Gets the numbers of a preset, KIRI_QUALITY_...
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
 ---@param preset integer
 ---@param quality? kiri.Quality
 ---@return kiri.Quality
 function kiri.getQuality(preset, quality) end
+
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+---@param preset integer
+---@param width number
+---@param height number
+---@param setup? kiri.Setup
+---@return kiri.Setup
+function kiri.getSetup(preset, width, height, setup) end
 
 --- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
 --- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.

@@ -173,6 +173,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriGetStageName': (None, 'stage_name'),
  'kiriGetMaterial': (None, 'material'),
  'kiriGetQuality': (None, 'quality'),
+ 'kiriGetSetup': (None, 'setup'),
  'kiriDefaultSheetDef': (None, 'default_sheet_def'),
  'kiriCreateSheet': ('World', 'create_sheet'),
  'kiriDestroySheet': ('Sheet', 'destroy'),
@@ -322,6 +323,14 @@ CONSTANTS = {'KIRI_OK': 0,
  'KIRI_QUALITY_BALANCED': 1,
  'KIRI_QUALITY_ACCURATE': 2,
  'KIRI_QUALITY_COUNT': 3,
+ 'KIRI_SETUP_CURTAIN': 0,
+ 'KIRI_SETUP_PAPER': 1,
+ 'KIRI_SETUP_FLAG': 2,
+ 'KIRI_SETUP_RIBBON': 3,
+ 'KIRI_SETUP_RUBBER': 4,
+ 'KIRI_SETUP_CARD': 5,
+ 'KIRI_SETUP_FOIL': 6,
+ 'KIRI_SETUP_COUNT': 7,
  'KIRI_MODEL_LINKS': 0,
  'KIRI_MODEL_AFFINE': 1,
  'KIRI_MODEL_POINTS': 2,
@@ -368,6 +377,7 @@ enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI
 enum kiriStage { KIRI_STAGE_CUT = 0, KIRI_STAGE_GRID = 1, KIRI_STAGE_REGIONS = 2, KIRI_STAGE_SHAPE = 3, KIRI_STAGE_SAMPLES = 4, KIRI_STAGE_CONSTANTS = 5, KIRI_STAGE_CONTACT = 6, KIRI_STAGE_SOLVE = 7, KIRI_STAGE_SKIN = 8, KIRI_STAGE_COUNT = 9 };
 enum kiriMaterialPreset { KIRI_MATERIAL_PAPER = 0, KIRI_MATERIAL_COTTON = 1, KIRI_MATERIAL_RUBBER = 2, KIRI_MATERIAL_FOIL = 3, KIRI_MATERIAL_CARD = 4, KIRI_MATERIAL_SILK = 5, KIRI_MATERIAL_SHIRTING = 6, KIRI_MATERIAL_WOOL = 7, KIRI_MATERIAL_DENIM = 8, KIRI_MATERIAL_JERSEY = 9, KIRI_MATERIAL_COUNT = 10 };
 enum kiriQualityPreset { KIRI_QUALITY_FAST = 0, KIRI_QUALITY_BALANCED = 1, KIRI_QUALITY_ACCURATE = 2, KIRI_QUALITY_COUNT = 3 };
+enum kiriSetupPreset { KIRI_SETUP_CURTAIN = 0, KIRI_SETUP_PAPER = 1, KIRI_SETUP_FLAG = 2, KIRI_SETUP_RIBBON = 3, KIRI_SETUP_RUBBER = 4, KIRI_SETUP_CARD = 5, KIRI_SETUP_FOIL = 6, KIRI_SETUP_COUNT = 7 };
 enum kiriModel { KIRI_MODEL_LINKS = 0, KIRI_MODEL_AFFINE = 1, KIRI_MODEL_POINTS = 2 };
 enum kiriSkinning { KIRI_SKINNING_LINEAR = 0, KIRI_SKINNING_SMOOTH = 1 };
 enum kiriTimeStepping { KIRI_TIME_STEPPING_SECOND_ORDER = 0, KIRI_TIME_STEPPING_EULER = 1 };
@@ -381,6 +391,7 @@ typedef struct kiriEvent kiriEvent;
 typedef struct kiriProfile kiriProfile;
 typedef struct kiriMaterial kiriMaterial;
 typedef struct kiriQuality kiriQuality;
+typedef struct kiriSetup kiriSetup;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
@@ -425,6 +436,7 @@ struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; 
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
+struct kiriSetup { kiriMaterial material; int32_t model; int32_t skinning; int32_t gridResolution; int32_t frameCount; int32_t iterations; int32_t columns; int32_t rows; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
@@ -479,6 +491,7 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 const char* kiriGetStageName(int32_t stage);
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
+kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 void kiriDefaultSheetDef(kiriSheetDef* def);
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);

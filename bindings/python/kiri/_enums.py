@@ -82,6 +82,17 @@ class QualityPreset(_enum.IntEnum):
     COUNT = 3
 
 
+class SetupPreset(_enum.IntEnum):
+    CURTAIN = 0
+    PAPER = 1
+    FLAG = 2
+    RIBBON = 3
+    RUBBER = 4
+    CARD = 5
+    FOIL = 6
+    COUNT = 7
+
+
 class Model(_enum.IntEnum):
     """How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12."""
     LINKS = 0
@@ -187,6 +198,14 @@ KIRI_QUALITY_FAST = QualityPreset.FAST
 KIRI_QUALITY_BALANCED = QualityPreset.BALANCED
 KIRI_QUALITY_ACCURATE = QualityPreset.ACCURATE
 KIRI_QUALITY_COUNT = QualityPreset.COUNT
+KIRI_SETUP_CURTAIN = SetupPreset.CURTAIN
+KIRI_SETUP_PAPER = SetupPreset.PAPER
+KIRI_SETUP_FLAG = SetupPreset.FLAG
+KIRI_SETUP_RIBBON = SetupPreset.RIBBON
+KIRI_SETUP_RUBBER = SetupPreset.RUBBER
+KIRI_SETUP_CARD = SetupPreset.CARD
+KIRI_SETUP_FOIL = SetupPreset.FOIL
+KIRI_SETUP_COUNT = SetupPreset.COUNT
 KIRI_MODEL_LINKS = Model.LINKS
 KIRI_MODEL_AFFINE = Model.AFFINE
 KIRI_MODEL_POINTS = Model.POINTS

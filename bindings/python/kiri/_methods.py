@@ -11,7 +11,7 @@ from ._core import Numbers
 if TYPE_CHECKING:
     import kiri
 
-__all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality',
+__all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality', 'setup',
  'default_sheet_def', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
 
 
@@ -43,16 +43,29 @@ def stage_name(stage: int) -> str:
 
 
 def material(preset: int) -> Record:
-    """Returns the numbers of a preset, KIRI_MATERIAL_..."""
+    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+    most).
+    """
     structure = core.ffi.new('kiriMaterial*')
     core.check(core.load().kiriGetMaterial(preset, structure))
     return core.record(structure[0])
 
 
 def quality(preset: int) -> Record:
-    """Returns the numbers of a preset, KIRI_QUALITY_..."""
+    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+    most).
+    """
     structure = core.ffi.new('kiriQuality*')
     core.check(core.load().kiriGetQuality(preset, structure))
+    return core.record(structure[0])
+
+
+def setup(preset: int, width: float, height: float) -> Record:
+    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
+    most).
+    """
+    structure = core.ffi.new('kiriSetup*')
+    core.check(core.load().kiriGetSetup(preset, width, height, structure))
     return core.record(structure[0])
 
 
@@ -95,8 +108,7 @@ class World:
     def tick(self, dt: float, substeps: int = 1) -> int:
         """Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
         pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
-        still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if
-        memory for contacts or ids is missing; sheets moved without touching each other if memory for that is.
+        still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick (manual, budget).
         KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED:
         events name sheets that were stopped.
         """

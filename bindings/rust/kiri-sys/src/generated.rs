@@ -113,6 +113,15 @@ pub const KIRI_QUALITY_BALANCED: i32 = 1;
 pub const KIRI_QUALITY_ACCURATE: i32 = 2;
 pub const KIRI_QUALITY_COUNT: i32 = 3;
 
+pub const KIRI_SETUP_CURTAIN: i32 = 0;
+pub const KIRI_SETUP_PAPER: i32 = 1;
+pub const KIRI_SETUP_FLAG: i32 = 2;
+pub const KIRI_SETUP_RIBBON: i32 = 3;
+pub const KIRI_SETUP_RUBBER: i32 = 4;
+pub const KIRI_SETUP_CARD: i32 = 5;
+pub const KIRI_SETUP_FOIL: i32 = 6;
+pub const KIRI_SETUP_COUNT: i32 = 7;
+
 /// rigid frames joined by links: paper, foil, stiff cloth
 pub const KIRI_MODEL_LINKS: i32 = 0;
 /// affine frames joined by links: cloth and rubber that stretch inside a region
@@ -265,11 +274,11 @@ pub struct kiriWorldDef {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriReplay {
-    /// bytes of the recording that were read
+    /// bytes of the recording that were read; calls and ticks made, without refused ticks
     pub offset: i64,
-    /// calls made so far
+    /// bytes of the recording that were read; calls and ticks made, without refused ticks
     pub calls: i64,
-    /// ticks made so far, without refused ones
+    /// bytes of the recording that were read; calls and ticks made, without refused ticks
     pub ticks: i64,
     /// bytes of the note where the replay stopped, in the recording; else null
     pub note: *const c_void,
@@ -335,9 +344,9 @@ pub struct kiriProfile {
     /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
     /// (totals: kiriCounts).
     pub linksChanged: i32,
-    /// sheets in which a cut took effect
+    /// sheets in which a cut took effect; linear systems, large and small
     pub commits: i32,
-    /// linear systems, large and small
+    /// sheets in which a cut took effect; linear systems, large and small
     pub systemsSolved: i32,
     /// planes given to the solver: by the host, by obstacles, and between sheets
     pub contacts: i32,
@@ -377,9 +386,8 @@ pub struct kiriMaterial {
     pub detail: i32,
 }
 
-/// Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST
-/// at most 2 %, BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need
-/// more frames. See the manual (accuracy).
+/// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 %
+/// (manual, accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriQuality {
@@ -390,6 +398,29 @@ pub struct kiriQuality {
     /// for the sheet def
     pub iterations: i32,
     /// for kiriWorld_Tick
+    pub substeps: i32,
+}
+
+/// Settings to begin with, for a rectangle (manual, accuracy).
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriSetup {
+    pub material: kiriMaterial,
+    /// for the sheet def, as the material
+    pub model: i32,
+    /// for the sheet def, as the material
+    pub skinning: i32,
+    /// for the sheet def, as the material
+    pub gridResolution: i32,
+    /// for the sheet def, as the material
+    pub frameCount: i32,
+    /// for the sheet def, as the material
+    pub iterations: i32,
+    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+    pub columns: i32,
+    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
+    pub rows: i32,
+    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
     pub substeps: i32,
 }
 
@@ -461,9 +492,11 @@ pub struct kiriSheetDef {
     pub maxFrames: i32,
     /// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea
     /// (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter
-    /// of a frame's area (manual, accuracy). default 0.95
+    /// of a frame's area (manual, accuracy). default 0.95, 0
     pub rigidWeight: f32,
-    /// default 0
+    /// Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea
+    /// (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter
+    /// of a frame's area (manual, accuracy). default 0.95, 0
     pub rigidArea: f32,
     /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumbArea: f32,
@@ -776,13 +809,13 @@ pub struct kiriFrameState {
     pub position: [f32; 3],
     /// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
     pub rotation: [f32; 9],
-    /// m/s
+    /// m/s, rad/s
     pub velocity: [f32; 3],
-    /// rad/s
+    /// m/s, rad/s
     pub angularVelocity: [f32; 3],
-    /// m^2 of its region
+    /// m^2 of its region; kg
     pub area: f32,
-    /// kg
+    /// m^2 of its region; kg
     pub mass: f32,
     /// 1: moved by the host, see kiriFrame_Hold
     pub held: i32,
@@ -1052,10 +1085,9 @@ unsafe extern "C" {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
     /// spent; events name the cuts that still have work. KIRI_ERROR_MEMORY: cuts and pieces that
-    /// leave go on in the next tick. Nothing moved if memory for contacts or ids is missing; sheets
-    /// moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left
-    /// for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets
-    /// that were stopped.
+    /// leave go on in the next tick (manual, budget). KIRI_ERROR_LIMIT: no ids are left for new
+    /// frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
+    /// stopped.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// Returns why the last function that changes the world failed, in a line; "": it did not.
     /// Valid until the next one.
@@ -1115,10 +1147,15 @@ unsafe extern "C" {
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
     /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;
-    /// Gets the numbers of a preset, KIRI_MATERIAL_...
+    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
+    /// m, 1 : 256 at most).
     pub fn kiriGetMaterial(preset: i32, material: *mut kiriMaterial) -> kiriResult;
-    /// Gets the numbers of a preset, KIRI_QUALITY_...
+    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
+    /// m, 1 : 256 at most).
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
+    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
+    /// m, 1 : 256 at most).
+    pub fn kiriGetSetup(preset: i32, width: f32, height: f32, setup: *mut kiriSetup) -> kiriResult;
     /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
     /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
     /// line names them by index in the def.
@@ -1541,6 +1578,17 @@ const _: () = {
     assert!(offset_of!(kiriQuality, gridResolution) == 4);
     assert!(offset_of!(kiriQuality, iterations) == 8);
     assert!(offset_of!(kiriQuality, substeps) == 12);
+    assert!(size_of::<kiriSetup>() == 72);
+    assert!(align_of::<kiriSetup>() == 4);
+    assert!(offset_of!(kiriSetup, material) == 0);
+    assert!(offset_of!(kiriSetup, model) == 40);
+    assert!(offset_of!(kiriSetup, skinning) == 44);
+    assert!(offset_of!(kiriSetup, gridResolution) == 48);
+    assert!(offset_of!(kiriSetup, frameCount) == 52);
+    assert!(offset_of!(kiriSetup, iterations) == 56);
+    assert!(offset_of!(kiriSetup, columns) == 60);
+    assert!(offset_of!(kiriSetup, rows) == 64);
+    assert!(offset_of!(kiriSetup, substeps) == 68);
     assert!(size_of::<kiriPaperOptions>() == 20);
     assert!(align_of::<kiriPaperOptions>() == 4);
     assert!(offset_of!(kiriPaperOptions, fromScratch) == 0);
@@ -1911,6 +1959,17 @@ const _: () = {
     assert!(offset_of!(kiriQuality, gridResolution) == 4);
     assert!(offset_of!(kiriQuality, iterations) == 8);
     assert!(offset_of!(kiriQuality, substeps) == 12);
+    assert!(size_of::<kiriSetup>() == 72);
+    assert!(align_of::<kiriSetup>() == 4);
+    assert!(offset_of!(kiriSetup, material) == 0);
+    assert!(offset_of!(kiriSetup, model) == 40);
+    assert!(offset_of!(kiriSetup, skinning) == 44);
+    assert!(offset_of!(kiriSetup, gridResolution) == 48);
+    assert!(offset_of!(kiriSetup, frameCount) == 52);
+    assert!(offset_of!(kiriSetup, iterations) == 56);
+    assert!(offset_of!(kiriSetup, columns) == 60);
+    assert!(offset_of!(kiriSetup, rows) == 64);
+    assert!(offset_of!(kiriSetup, substeps) == 68);
     assert!(size_of::<kiriPaperOptions>() == 20);
     assert!(align_of::<kiriPaperOptions>() == 4);
     assert!(offset_of!(kiriPaperOptions, fromScratch) == 0);

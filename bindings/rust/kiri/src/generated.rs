@@ -416,6 +416,50 @@ impl QualityPreset {
     }
 }
 
+/// Setup preset.
+#[non_exhaustive]
+#[repr(i32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SetupPreset {
+    /// Curtain.
+    Curtain = 0,
+    /// Paper.
+    Paper = 1,
+    /// Flag.
+    Flag = 2,
+    /// Ribbon.
+    Ribbon = 3,
+    /// Rubber.
+    Rubber = 4,
+    /// Card.
+    Card = 5,
+    /// Foil.
+    Foil = 6,
+}
+
+impl SetupPreset {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Curtain,
+        Self::Paper,
+        Self::Flag,
+        Self::Ribbon,
+        Self::Rubber,
+        Self::Card,
+        Self::Foil,
+    ];
+
+    /// Of a number of C.
+    pub fn from_raw(value: i32) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| *known as i32 == value)
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn known(value: i32) -> Self {
+        Self::from_raw(value).expect("the library gives what its header has")
+    }
+}
+
 /// How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12.
 #[non_exhaustive]
 #[repr(i32)]
@@ -679,9 +723,9 @@ pub struct Profile {
     /// Changes by commits: cells, weights of cells, of vertices and of collision points, links
     /// (totals: [`Counts`]).
     pub links_changed: i32,
-    /// sheets in which a cut took effect
+    /// sheets in which a cut took effect; linear systems, large and small
     pub commits: i32,
-    /// linear systems, large and small
+    /// sheets in which a cut took effect; linear systems, large and small
     pub systems_solved: i32,
     /// planes given to the solver: by the host, by obstacles, and between sheets
     pub contacts: i32,
@@ -786,9 +830,8 @@ impl Material {
     }
 }
 
-/// Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST
-/// at most 2 %, BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need
-/// more frames. See the manual (accuracy).
+/// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 %
+/// (manual, accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Quality {
@@ -820,6 +863,58 @@ impl Quality {
 
     #[allow(dead_code)]
     pub(crate) fn raw(&self) -> sys::kiriQuality {
+        // SAFETY: as above.
+        unsafe { *std::ptr::from_ref(self).cast() }
+    }
+}
+
+/// Settings to begin with, for a rectangle (manual, accuracy).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Setup {
+    /// Material.
+    pub material: Material,
+    /// for the sheet def, as the material
+    pub model: i32,
+    /// for the sheet def, as the material
+    pub skinning: i32,
+    /// for the sheet def, as the material
+    pub grid_resolution: i32,
+    /// for the sheet def, as the material
+    pub frame_count: i32,
+    /// for the sheet def, as the material
+    pub iterations: i32,
+    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
+    pub columns: i32,
+    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
+    pub rows: i32,
+    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
+    pub substeps: i32,
+}
+
+const _: () = {
+    assert!(size_of::<Setup>() == size_of::<sys::kiriSetup>());
+    assert!(align_of::<Setup>() == align_of::<sys::kiriSetup>());
+    assert!(offset_of!(Setup, material) == offset_of!(sys::kiriSetup, material));
+    assert!(offset_of!(Setup, model) == offset_of!(sys::kiriSetup, model));
+    assert!(offset_of!(Setup, skinning) == offset_of!(sys::kiriSetup, skinning));
+    assert!(offset_of!(Setup, grid_resolution) == offset_of!(sys::kiriSetup, gridResolution));
+    assert!(offset_of!(Setup, frame_count) == offset_of!(sys::kiriSetup, frameCount));
+    assert!(offset_of!(Setup, iterations) == offset_of!(sys::kiriSetup, iterations));
+    assert!(offset_of!(Setup, columns) == offset_of!(sys::kiriSetup, columns));
+    assert!(offset_of!(Setup, rows) == offset_of!(sys::kiriSetup, rows));
+    assert!(offset_of!(Setup, substeps) == offset_of!(sys::kiriSetup, substeps));
+};
+
+impl Setup {
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriSetup) -> Self {
+        // SAFETY: the layout is the same, and any bits are a value of each field.
+        unsafe { *std::ptr::from_ref(raw).cast() }
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn raw(&self) -> sys::kiriSetup {
         // SAFETY: as above.
         unsafe { *std::ptr::from_ref(self).cast() }
     }
@@ -912,9 +1007,11 @@ pub struct SheetDef<'a> {
     pub max_frames: i32,
     /// Re-sampling: a frame whose weight exceeds `rigid_weight` over an area larger than
     /// `rigid_area` (m^2) gets new frames beside it; a new sheet only with `frame_count` 0.
-    /// `rigid_area` 0: a quarter of a frame's area (manual, accuracy). default 0.95
+    /// `rigid_area` 0: a quarter of a frame's area (manual, accuracy). default 0.95, 0
     pub rigid_weight: f32,
-    /// default 0
+    /// Re-sampling: a frame whose weight exceeds `rigid_weight` over an area larger than
+    /// `rigid_area` (m^2) gets new frames beside it; a new sheet only with `frame_count` 0.
+    /// `rigid_area` 0: a quarter of a frame's area (manual, accuracy). default 0.95, 0
     pub rigid_area: f32,
     /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumb_area: f32,
@@ -1663,13 +1760,13 @@ pub struct FrameState {
     pub position: [f32; 3],
     /// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
     pub rotation: [f32; 9],
-    /// m/s
+    /// m/s, rad/s
     pub velocity: [f32; 3],
-    /// rad/s
+    /// m/s, rad/s
     pub angular_velocity: [f32; 3],
-    /// m^2 of its region
+    /// m^2 of its region; kg
     pub area: f32,
-    /// kg
+    /// m^2 of its region; kg
     pub mass: f32,
     /// 1: moved by the host, see [`Frame::hold`]
     pub held: bool,
@@ -2338,7 +2435,8 @@ pub fn stage_name(stage: Stage) -> &'static str {
     unsafe { text(sys::kiriGetStageName(stage as i32)) }
 }
 
-/// Gets the numbers of a preset, KIRI_MATERIAL_...
+/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
+/// : 256 at most).
 pub fn material(preset: MaterialPreset) -> Result<Material> {
     let mut material = MaybeUninit::<sys::kiriMaterial>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2348,7 +2446,8 @@ pub fn material(preset: MaterialPreset) -> Result<Material> {
     Ok(Material::from_raw(&material))
 }
 
-/// Gets the numbers of a preset, KIRI_QUALITY_...
+/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
+/// : 256 at most).
 pub fn quality(preset: QualityPreset) -> Result<Quality> {
     let mut quality = MaybeUninit::<sys::kiriQuality>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2356,6 +2455,17 @@ pub fn quality(preset: QualityPreset) -> Result<Quality> {
     // SAFETY: it filled the struct.
     let quality = unsafe { quality.assume_init() };
     Ok(Quality::from_raw(&quality))
+}
+
+/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
+/// : 256 at most).
+pub fn setup(preset: SetupPreset, width: f32, height: f32) -> Result<Setup> {
+    let mut setup = MaybeUninit::<sys::kiriSetup>::uninit();
+    // SAFETY: pointers are to what is named, and lengths are theirs.
+    fail(unsafe { sys::kiriGetSetup(preset as i32, width, height, setup.as_mut_ptr()) })?;
+    // SAFETY: it filled the struct.
+    let setup = unsafe { setup.assume_init() };
+    Ok(Setup::from_raw(&setup))
 }
 
 /// Fills in the mesh of [`World::create_rectangle`]: 2 (columns + 1) (rows + 1) floats and 6
@@ -2372,10 +2482,9 @@ impl World {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in substeps equal parts (1 to 64):
     /// takes the pending cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is
     /// spent; events name the cuts that still have work. [`ResultCode::ErrorMemory`]: cuts and
-    /// pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids is
-    /// missing; sheets moved without touching each other if memory for that is.
-    /// [`ResultCode::ErrorLimit`]: no ids are left for new frames; nothing moves until some are
-    /// destroyed. [`ResultCode::Diverged`]: events name sheets that were stopped.
+    /// pieces that leave go on in the next tick (manual, budget). [`ResultCode::ErrorLimit`]: no
+    /// ids are left for new frames; nothing moves until some are destroyed.
+    /// [`ResultCode::Diverged`]: events name sheets that were stopped.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
