@@ -64,9 +64,9 @@ static const void* Store(const kiriWorld* world, int k, int64_t* bytes)
 static kiriFrame FrameOfSecondPiece(const kiriWorld* world, kiriSheet sheet)
 {
     kiriFrame frames[64];
-    int32_t count, piece;
+    int32_t piece;
     assert_int_equal(World_Counts(world, sheet).pieces, 2);
-    OK(kiriSheet_GetFrames(world, sheet, frames, 64, &count));
+    int32_t count = World_GetFrames(world, sheet, frames, 64);
     for (int32_t i = 0; i < count; ++i) {
         OK(kiriFrame_GetPiece(world, frames[i], &piece));
         if (piece == 1) {

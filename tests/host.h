@@ -208,11 +208,16 @@ static inline uint64_t Host_Hash(const Host* host)
         return value;                                                                                                  \
     }
 WORLD_GETTER(kiriFrameState, World_FrameState, kiriFrame_GetState, kiriFrame)
+WORLD_GETTER(int32_t, World_PieceOf, kiriFrame_GetPiece, kiriFrame)
 WORLD_GETTER(kiriTotals, World_Totals, kiriSheet_GetTotals, kiriSheet)
 WORLD_GETTER(kiriSheetSettings, World_Settings, kiriSheet_GetSettings, kiriSheet)
 WORLD_GETTER(kiriMesh, World_Mesh, kiriSheet_GetMesh, kiriSheet)
 WORLD_GETTER(kiriCounts, World_Counts, kiriSheet_GetCounts, kiriSheet)
+WORLD_GETTER(kiriTearing, World_Tearing, kiriSheet_GetTearing, kiriSheet)
+WORLD_GETTER(int32_t, World_IsAwake, kiriSheet_IsAwake, kiriSheet)
 WORLD_GETTER(kiriObstacleState, World_ObstacleState, kiriObstacle_GetState, kiriObstacle)
+WORLD_GETTER(kiriPinState, World_PinState, kiriPin_GetState, kiriPin)
+WORLD_GETTER(int32_t, World_StitchCount, kiriSeam_GetCount, kiriSeam)
 PIECE_GETTER(kiriPieceState, World_PieceState, kiriSheet_GetPiece)
 PIECE_GETTER(kiriPieceMesh, World_PieceMesh, kiriSheet_GetPieceMesh)
 
@@ -230,25 +235,111 @@ static inline kiriPointState World_PointState(const kiriWorld* world, kiriSheet 
     return state;
 }
 
+static inline kiriFoldState World_FoldState(const kiriWorld* world, kiriSheet sheet, int32_t fold)
+{
+    kiriFoldState state;
+    OK(kiriSheet_GetFold(world, sheet, fold, &state));
+    return state;
+}
+
+/* Returns the number of frames of the sheet. */
+static inline int32_t World_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity)
+{
+    int32_t count;
+    OK(kiriSheet_GetFrames(world, sheet, frames, capacity, &count));
+    return count;
+}
+
+static inline int32_t World_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity)
+{
+    int32_t count;
+    OK(kiriSheet_GetPins(world, sheet, pins, capacity, &count));
+    return count;
+}
+
+static inline kiriSheet World_AddSheet(kiriWorld* world, const kiriSheetDef* def)
+{
+    kiriSheet made;
+    OK(kiriCreateSheet(world, def, &made));
+    return made;
+}
+
 static inline kiriObstacle World_AddObstacle(kiriWorld* world, const kiriObstacleDef* def)
 {
-    kiriObstacle obstacle;
-    OK(kiriCreateObstacle(world, def, &obstacle));
-    return obstacle;
+    kiriObstacle made;
+    OK(kiriCreateObstacle(world, def, &made));
+    return made;
+}
+
+static inline kiriSeam World_AddSeam(kiriWorld* world, const kiriSeamDef* def)
+{
+    kiriSeam made;
+    OK(kiriCreateSeam(world, def, &made));
+    return made;
+}
+
+static inline kiriPin World_AddPin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def)
+{
+    kiriPin made;
+    OK(kiriCreatePin(world, sheet, def, &made));
+    return made;
 }
 
 static inline kiriPin World_Clamp(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2])
 {
-    kiriPin clamp;
-    OK(kiriSheet_ClampLine(world, sheet, from, to, &clamp));
-    return clamp;
+    kiriPin made;
+    OK(kiriSheet_ClampLine(world, sheet, from, to, &made));
+    return made;
+}
+
+static inline kiriPin World_Hinge(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2])
+{
+    kiriPin made;
+    OK(kiriSheet_HingeLine(world, sheet, from, to, &made));
+    return made;
 }
 
 static inline kiriCut World_BeginCut(kiriWorld* world, kiriSheet sheet, const float rest[2])
 {
-    kiriCut cut;
-    OK(kiriBeginCut(world, sheet, rest, &cut));
-    return cut;
+    kiriCut made;
+    OK(kiriBeginCut(world, sheet, rest, &made));
+    return made;
+}
+
+static inline kiriBlade World_BeginBlade(kiriWorld* world, kiriSheet sheet)
+{
+    kiriBlade made;
+    OK(kiriBeginBlade(world, sheet, &made));
+    return made;
+}
+
+static inline kiriSheet World_Detach(kiriWorld* world, kiriFrame frame)
+{
+    kiriSheet made;
+    OK(kiriFrame_DetachPiece(world, frame, &made));
+    return made;
+}
+
+static inline kiriSheet World_AddRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
+                                           const kiriSheetDef* def)
+{
+    kiriSheet made;
+    OK(kiriCreateRectangle(world, width, height, columns, rows, def, &made));
+    return made;
+}
+
+/* Sets gravity to 0. */
+static inline void World_StopGravity(kiriWorld* world)
+{
+    OK(kiriWorld_SetGravity(world, (const float[]){ 0.0f, 0.0f, 0.0f }));
+}
+
+/* Makes so many ticks without a check of the world. Each must return KIRI_OK. */
+static inline void World_Ticks(kiriWorld* world, int32_t count, float dt, int32_t substeps)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        OK(kiriWorld_Tick(world, dt, substeps));
+    }
 }
 
 /* The mesh of a def. */

@@ -31,7 +31,7 @@ static void Stage_StartFlat(Stage* stage, int32_t grid, int32_t frames)
     kiriSheetDef def = Def(grid, frames);
     Host_Start(&stage->host);
     stage->host.every = 20;
-    OK(kiriWorld_SetGravity(stage->host.world, stillAir));
+    World_StopGravity(stage->host.world);
     stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, grid, grid);
 }
 
@@ -114,8 +114,7 @@ static void Blow(const Stage* stage, int32_t step)
 {
     const float force[3] = { 0.0f, step / 3 % 2 == 0 ? -1.5f : 1.5f, 0.3f }, none[3] = { 0.0f, 0.0f, 0.0f };
     kiriFrame frames[64];
-    int32_t count;
-    OK(kiriSheet_GetFrames(stage->host.world, stage->sheet, frames, 64, &count));
+    int32_t count = World_GetFrames(stage->host.world, stage->sheet, frames, 64);
     OK(kiriFrame_ApplyForce(stage->host.world, frames[count / 2], force, none));
     OK(kiriFrame_ApplyForce(stage->host.world, frames[0], force, none));
 }
@@ -338,7 +337,6 @@ static void StartFolded(Stage* stage)
     static const float turned[9] = { -1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f };
     float points[16];
     kiriFrame frames[8];
-    int32_t count;
     for (int k = 0; k < 8; ++k) {
         points[2 * k] = 0.125f + 0.25f * (float)(k / 2);
         points[2 * k + 1] = 0.25f + 0.5f * (float)(k % 2);
@@ -346,9 +344,9 @@ static void StartFolded(Stage* stage)
     kiriSheetDef def = Def(16, 8);
     def.framePoints = points;
     Host_Start(&stage->host);
-    OK(kiriWorld_SetGravity(stage->host.world, stillAir));
+    World_StopGravity(stage->host.world);
     stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, 16, 16);
-    OK(kiriSheet_GetFrames(stage->host.world, stage->sheet, frames, 8, &count));
+    int32_t count = World_GetFrames(stage->host.world, stage->sheet, frames, 8);
     assert_int_equal(count, 8);
     for (int k = 0; k < 8; ++k) {
         const float u = points[2 * k], at[3] = { u < 0.5f ? u : 1.0f - u, points[2 * k + 1], u < 0.5f ? 0.0f : 0.1f };
@@ -467,7 +465,6 @@ TEST(Detached)
     static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.3f };
     for (int lower = 0; lower < 2; ++lower) {
         SCOPED(Stage, stage, Stage_Stop);
-        kiriSheet detached;
         Stage_StartFlat(&stage, 16, 8);
         Host_Cut(&stage.host, stage.sheet, line, 2);
         Tick(&stage);
@@ -479,7 +476,7 @@ TEST(Detached)
             kiriPieceState at = World_PieceState(stage.host.world, stage.sheet, piece);
             frame = at.center[1] > 0.3 ? frame : Host_FrameOf(&stage.host, stage.sheet, piece);
         }
-        OK(kiriFrame_DetachPiece(stage.host.world, frame, &detached));
+        kiriSheet detached = World_Detach(stage.host.world, frame);
         Draw(&stage, 0.6, y, 1.1, y, 5);
         EndAndTick(&stage);
         assert_int_equal(Pieces(&stage), lower ? 1 : 2);
@@ -582,16 +579,13 @@ TEST(FallingSheets)
     for (int32_t k = 0; k < 120; ++k) {
         kiriWorldDef worldDef;
         SCOPED_WORLD(world) = NULL;
-        kiriSheet sheet;
-        kiriBlade blade;
-        kiriCounts counts;
         kiriDefaultWorldDef(&worldDef);
         kiriSheetDef sheetDef = DefaultSheet();
         worldDef.gravity[1] = -1.0f - (float)(k % 10);
         sheetDef.frameCount = 1 + k % 7;
         OK(kiriCreateWorld(&worldDef, &world));
-        OK(kiriCreateRectangle(world, 1.0f, 0.5f, 8 << k % 3, 4 << k % 3, &sheetDef, &sheet));
-        OK(kiriBeginBlade(world, sheet, &blade));
+        kiriSheet sheet = World_AddRectangle(world, 1.0f, 0.5f, 8 << k % 3, 4 << k % 3, &sheetDef);
+        kiriBlade blade = World_BeginBlade(world, sheet);
         const int32_t steps = 6 + k % 25;
         for (int32_t i = 0; i < steps; ++i) {
             const float along = (float)i / (float)(steps - 1), height = 0.12f + 0.0026f * (float)(k * 37 % 100);
@@ -601,7 +595,7 @@ TEST(FallingSheets)
         }
         OK(kiriBlade_End(world, blade));
         OK(kiriWorld_Tick(world, 1.0f / 60.0f, 1));
-        OK(kiriSheet_GetCounts(world, sheet, &counts));
+        kiriCounts counts = World_Counts(world, sheet);
         assert_int_equal(counts.pieces, 2);
     }
 }

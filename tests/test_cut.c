@@ -63,9 +63,8 @@ static int32_t VerticesAt(const kiriMesh* mesh, const float at[2])
 /* m^2 of the piece at a place. */
 static double AreaAt(const Host* host, kiriSheet sheet, const float at[2])
 {
-    int32_t piece;
     kiriPointState point = World_PointState(host->world, sheet, at);
-    OK(kiriFrame_GetPiece(host->world, point.frame, &piece));
+    int32_t piece = World_PieceOf(host->world, point.frame);
     kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state.area;
 }
@@ -215,13 +214,12 @@ TEST(CutsThroughSplitSides)
     for (int way = 0; way < 2; ++way) {
         float line[4] = { way ? 3.0f : -1.0f, 1, way ? -1.0f : 3.0f, 1 };
         kiriSheetDef def = DefOf(8, 0.0);
-        kiriSheet sheet;
         START_HOST(host);
         def.restPositions = positions;
         def.vertexCount = 10;
         def.indices = indices;
         def.triangleCount = 6;
-        OK(kiriCreateSheet(host.world, &def, &sheet));
+        kiriSheet sheet = World_AddSheet(host.world, &def);
         assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
         CutLine(&host, sheet, line, 2);
         kiriMesh mesh = Host_Mesh(&host, sheet);
@@ -480,8 +478,7 @@ TEST(KnotsEnd)
         DrawKnot(&seed, isSpiral, count, points);
         Host_Cut(&host, sheet, points, count);
         while (Host_Tick(&host, 1e-3f, 1) == KIRI_PENDING && items <= most) {
-            kiriProfile profile;
-            OK(kiriWorld_GetProfile(host.world, &profile));
+            kiriProfile profile = World_Profile(host.world);
             items += profile.trianglesSplit;
         }
         assert_true(items <= most);

@@ -221,8 +221,7 @@ TEST(Places)
 
     kiriFrame frames[64];
     kiriFrameState frame;
-    int32_t count;
-    OK(kiriSheet_GetFrames(stage.host.world, stage.sheet, frames, 64, &count));
+    int32_t count = World_GetFrames(stage.host.world, stage.sheet, frames, 64);
     Draw(canvas, &stage.host, KIRI_DRAW_FRAMES);
     for (int32_t i = 0; i < count; ++i) {
         OK(kiriFrame_GetState(stage.host.world, frames[i], &frame));
@@ -244,8 +243,7 @@ TEST(Blades)
     Stage stage;
     Begin(&stage);
     Canvas* canvas = &stage.canvas;
-    kiriBlade blade;
-    OK(kiriBeginBlade(stage.host.world, 0, &blade));
+    kiriBlade blade = World_BeginBlade(stage.host.world, 0);
     Draw(canvas, &stage.host, KIRI_DRAW_BLADES);
     CheckCounts(canvas, 0, 0, 0); /* it is nowhere yet */
     OK(kiriBlade_MoveEdge(stage.host.world, blade, (float[]){ 0.2f, 0.2f, 1.0f }, (float[]){ 0.2f, 0.2f, -1.0f }));
@@ -291,7 +289,6 @@ TEST(Work)
 static void AddShape(Host* host, int32_t type, float height)
 {
     static const float outline[6] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f };
-    kiriObstacle made;
     kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = 0.5f;
@@ -299,7 +296,7 @@ static void AddShape(Host* host, int32_t type, float height)
     def.size[0] = def.size[1] = def.size[2] = 1.0f;
     def.outline = outline;
     def.outlineCount = 3;
-    OK(kiriCreateObstacle(host->world, &def, &made));
+    World_AddObstacle(host->world, &def);
 }
 
 TEST(Shapes)

@@ -507,10 +507,9 @@ TEST(Pieces)
     ReadAndJoin(strcat(text, "</svg>"));
     START_HOST(host);
     kiriSheetDef def;
-    kiriSheet sheet;
     kiriDefaultSheetDef(&def);
     def.snapDistance = 1e-5f;
-    OK(kiriCreateRectangle(host.world, 0.1f, 0.1f, 20, 20, &def, &sheet));
+    kiriSheet sheet = World_AddRectangle(host.world, 0.1f, 0.1f, 20, 20, &def);
     for (int32_t i = 0; i < drawing.lineCount; i++) {
         const ImportLine* line = &drawing.lines[i];
         for (int32_t j = 0; j < line->count; j++) {

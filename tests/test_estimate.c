@@ -45,16 +45,14 @@ static kiriSheetDef DefOf(const Sheet* s)
 
 static void StartHost(Host* host)
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     Host_Start(host);
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
 }
 
 /* The def's mesh, cut: it lives as long as the host. */
 static void TakeCutMesh(Host* host, const Sheet* s, kiriSheetDef* def)
 {
     kiriSheetDef plain = DefOf(s);
-    kiriMesh mesh;
     plain.frameCount = 1;
     plain.maxFrames = 1;
     kiriSheet sheet = Host_AddRectangle(host, &plain, s->length, s->width, (int32_t)(s->length / s->square + 0.5f),
@@ -64,7 +62,7 @@ static void TakeCutMesh(Host* host, const Sheet* s, kiriSheetDef* def)
         Host_Cut(host, sheet, from, s->cutPoints[k]);
     }
     OK(kiriWorld_Tick(host->world, 1e-3f, 1));
-    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    kiriMesh mesh = World_Mesh(host->world, sheet);
     def->restPositions = mesh.restPositions;
     def->vertexCount = mesh.vertexCount;
     def->indices = mesh.indices;
@@ -95,7 +93,6 @@ static kiriSheet Make(Host* host, const Sheet* s, int32_t count, float accuracy)
 {
     float points[256];
     Host cut;
-    kiriSheet sheet;
     kiriSheetDef def = DefOf(s);
     StartHost(&cut);
     TakeCutMesh(&cut, s, &def);
@@ -108,7 +105,7 @@ static kiriSheet Make(Host* host, const Sheet* s, int32_t count, float accuracy)
     def.accuracy = count > 0 ? def.accuracy : accuracy;
     StartHost(host);
     host->every = 1000;
-    OK(kiriCreateSheet(host->world, &def, &sheet));
+    kiriSheet sheet = World_AddSheet(host->world, &def);
     Host_Stop(&cut);
     Clamp(host, sheet, s, 0.0f);
     return sheet;
@@ -191,9 +188,7 @@ TEST(LigamentsStretchAsTheyShould)
         OK(kiriPin_SetTarget(host.world, clamp, pulled));
         for (double before = -1.0; fabs(force[0] - before) > 1e-6 * fabs(force[0]);) {
             before = force[0];
-            for (int tick = 0; tick < 10; ++tick) {
-                OK(kiriWorld_Tick(host.world, 0.5f, 1));
-            }
+            World_Ticks(host.world, 10, 0.5f, 1);
             OK(kiriPin_GetReaction(host.world, clamp, force, torque));
         }
         double stiffness = force[0] / ((double)pulled[0] - (double)s.length) / 6.95e3;

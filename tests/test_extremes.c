@@ -70,8 +70,7 @@ static kiriSheet AddSheet(Host* host, float z)
 static kiriFrame FirstFrame(const Host* host, kiriSheet sheet)
 {
     kiriFrame frames[8];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, 8, &count));
+    World_GetFrames(host->world, sheet, frames, 8);
     return frames[0];
 }
 

@@ -30,19 +30,16 @@ static kiriSheet AddFolded(Host* host, kiriSheetDef* def, float width, float hei
 
 static kiriFoldState StateOf(const Host* host, kiriSheet sheet, int32_t index)
 {
-    kiriFoldState state;
-    OK(kiriSheet_GetFold(host->world, sheet, index, &state));
+    kiriFoldState state = World_FoldState(host->world, sheet, index);
     return state;
 }
 
 static void HoldLeftOf(Host* host, kiriSheet sheet, float u)
 {
     kiriFrame frames[64];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, 64);
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(host->world, frames[i], &state));
+        kiriFrameState state = World_FrameState(host->world, frames[i]);
         if (state.position[0] < u) {
             OK(kiriFrame_Hold(host->world, frames[i], state.position, state.rotation));
         }
@@ -77,9 +74,7 @@ static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t column
     def.frameCount = frames;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, columns, columns / 2, &fold, 1);
     HoldLeftOf(&host, sheet, 0.05f);
-    for (int t = 0; t < 300; ++t) {
-        OK(Host_Tick(&host, Dt, 1));
-    }
+    Host_Ticks(&host, 300, Dt, 1);
     double angle = -StateOf(&host, sheet, 0).angle, weight = 800.0 * 3e-4 * 9.81, b = 0.05, low = 0.0, high = 1.6;
     for (int i = 0; i < 60; ++i) {
         double middle = 0.5 * (low + high);
@@ -107,8 +102,6 @@ static double SagOf(float stiffness, float lean, int32_t frames)
 {
     const kiriFold fold = { { 0.045f - lean, -1e-3f }, { 0.045f + lean, 0.051f }, 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
-    kiriPin pin;
-    kiriPointState end;
     START_HOST(host);
     host.every = 100;
     def.frameCount = frames;
@@ -118,9 +111,9 @@ static double SagOf(float stiffness, float lean, int32_t frames)
     if (stiffness >= 0.0f) { /* it was a free hinge */
         OK(kiriSheet_SetFold(host.world, sheet, 0, stiffness, 0.0f));
     }
-    OK(kiriSheet_ClampLine(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.05f }, &pin));
+    World_Clamp(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.05f });
     Host_Ticks(&host, 300, Dt, 2);
-    OK(kiriSheet_GetPoint(host.world, sheet, (const float[]){ 0.1f, 0.025f }, &end));
+    kiriPointState end = World_PointState(host.world, sheet, (const float[]){ 0.1f, 0.025f });
     return -(double)end.position[2];
 }
 
@@ -147,15 +140,12 @@ TEST(SeenSurfaceIsTwoPlanes)
     def.gridResolution = 40;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 17, 9, &fold, 1);
     HoldLeftOf(&host, sheet, 0.04f);
-    for (int t = 0; t < 90; ++t) {
-        OK(Host_Tick(&host, Dt, 2));
-    }
+    Host_Ticks(&host, 90, Dt, 2);
     kiriMesh mesh = Host_Mesh(&host, sheet);
     double worst[2] = { 0.0, 0.0 };
     kiriFrame frames[2];
-    int32_t count;
     kiriFrameState carrier[2];
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, 2, &count));
+    int32_t count = World_GetFrames(host.world, sheet, frames, 2);
     assert_int_equal(count, 2);
     for (int k = 0; k < 2; ++k) {
         OK(kiriFrame_GetState(host.world, frames[k], &carrier[k]));
@@ -209,20 +199,18 @@ TEST(CutsGoThroughFolds)
 TEST(BladesGoThroughFolds)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 1.2f, 0.0f };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float quad[12] = { -1, 0.026f, -1, 2, 0.026f, -1, 2, 0.026f, 1, -1, 0.026f, 1 };
     kiriSheetDef def = StiffDef();
     kiriCut cut;
-    kiriBlade blade;
     START_HOST(host);
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     def.material.airDamping = 20.0f;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
     Host_Ticks(&host, 100, Dt, 2);
     OK(kiriSheet_Slice(host.world, sheet, quad, &cut));
     Host_Ticks(&host, 2, Dt, 2);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-    OK(kiriBeginBlade(host.world, sheet, &blade));
+    kiriBlade blade = World_BeginBlade(host.world, sheet);
     for (int t = 0; t <= 20; ++t) {
         const float from[3] = { -0.05f + 0.01f * (float)t, 0.04f, -1.0f }, to[3] = { from[0], 0.04f, 1.0f };
         OK(kiriBlade_MoveEdge(host.world, blade, from, to));
@@ -238,13 +226,12 @@ TEST(ClothFolds)
 {
     const kiriFold fold = { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 1e-4f, 2.0f, 0.0f };
     kiriSheetDef def;
-    kiriPin pin;
     START_HOST(host);
     host.every = 20;
     kiriDefaultSheetDef(&def);
     def.frameCount = 16;
     kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 20, 20, &fold, 1);
-    OK(kiriSheet_ClampLine(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 1.0f }, &pin));
+    World_Clamp(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 1.0f });
     for (int t = 0; t < 40; ++t) {
         OK(Host_Tick(&host, Dt, 2));
         CheckLips(&host, sheet);
@@ -256,17 +243,14 @@ TEST(FoldsGoToTheirRestAngle)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     START_HOST(host);
     def.material.airDamping = 30.0f;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
     for (int k = -6; k <= 6; ++k) {
         float rest = 0.5f * (float)k;
         OK(kiriSheet_SetFold(host.world, sheet, 0, 0.01f, rest));
-        for (int t = 0; t < 120; ++t) {
-            OK(Host_Tick(&host, Dt, 2));
-        }
+        Host_Ticks(&host, 120, Dt, 2);
         assert_true(fabs(StateOf(&host, sheet, 0).angle - (double)rest) < 1e-3);
         kiriTotals totals = Host_Totals(&host, sheet);
         for (int a = 0; a < 3; ++a) {
@@ -280,21 +264,18 @@ TEST(FoldsGoToTheirRestAngle)
 static double LetGo(float yieldMoment)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 0.0f, yieldMoment };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     kiriFrame frames[2];
-    int32_t count;
     START_HOST(host);
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     def.material.yieldStress = 1e8f;
     def.material.airDamping = 30.0f;
     def.frameCount = 2;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, &fold, 1);
     HoldLeftOf(&host, sheet, 0.05f);
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, 2, &count));
+    World_GetFrames(host.world, sheet, frames, 2);
     for (int k = 0; k < 2; ++k) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(host.world, frames[k], &state));
+        kiriFrameState state = World_FrameState(host.world, frames[k]);
         for (int t = 1; t <= 90 && state.position[0] > 0.05f; ++t) {
             double turn = 1.57079632679 * t / 90.0, off = (double)state.position[0] - 0.05;
             float c = (float)cos(turn), n = (float)sin(turn);
@@ -307,9 +288,7 @@ static double LetGo(float yieldMoment)
             OK(kiriFrame_Hold(host.world, frames[k], NULL, NULL));
         }
     }
-    for (int t = 0; t < 200; ++t) {
-        OK(Host_Tick(&host, Dt, 2));
-    }
+    Host_Ticks(&host, 200, Dt, 2);
     double angle = StateOf(&host, sheet, 0).angle;
     return angle;
 }
@@ -319,11 +298,10 @@ TEST(FoldsAreAddedLater)
 {
     const kiriFold fold = { { 0.05f, 0.0f }, { 0.05f, 0.05f }, 0.01f, 1.0f, 0.0f };
     const kiriBudget budget = { 32, 500, 100, 0 };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = StiffDef();
     int32_t index, ticks = 0;
     START_HOST(host);
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     OK(kiriWorld_SetBudget(host.world, &budget));
     def.fadeTime = 0.2f;
     def.material.airDamping = 30.0f;
@@ -337,9 +315,7 @@ TEST(FoldsAreAddedLater)
     assert_in_range(ticks, 1, 60);
     assert_true(fabs(StateOf(&host, sheet, 0).length - 0.05) < 1e-8);
     assert_true(fabs(StateOf(&host, sheet, 0).angle) < 0.5); /* it goes on from flat */
-    for (int t = 0; t < 200; ++t) {
-        OK(Host_Tick(&host, Dt, 2));
-    }
+    Host_Ticks(&host, 200, Dt, 2);
     assert_true(fabs(StateOf(&host, sheet, 0).angle - 1.0) < 2e-3);
     CheckLips(&host, sheet);
 }
@@ -397,12 +373,11 @@ static void Miura_Make(Miura* m, int columns, int rows, double width, double hei
    degrees. */
 static double FoldMiura(int columns, int rows, double acute, int32_t frames, int32_t grid)
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     double worst = 0.0;
     Miura m;
     START_HOST(host);
     host.every = 50;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     Miura_Make(&m, columns, rows, 0.1, 0.1, acute);
     for (int i = 0; i < m.count; ++i) {
         m.folds[i].stiffness = m.isZig[i] ? 0.01f : 0.0f;
@@ -420,9 +395,7 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
                 OK(kiriSheet_SetFold(host.world, sheet, i, m.folds[i].stiffness, (float)(m.sign[i] * zig)));
             }
         }
-        for (int t = 0; t < (degrees % 20 == 0 ? 60 : 4); ++t) {
-            OK(Host_Tick(&host, Dt, 2));
-        }
+        Host_Ticks(&host, (degrees % 20 == 0 ? 60 : 4), Dt, 2);
         for (int i = 0; i < m.count && degrees % 20 == 0; ++i) {
             double want = m.sign[i] * (m.isZig[i] ? zig : line), is = StateOf(&host, sheet, i).angle;
             worst = fmax(worst, fabs(is - want) / Degree);
@@ -447,13 +420,13 @@ TEST(WaterbombFolds)
         "\"edges_vertices\":[[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[6,0],[6,1],[6,3],[6,4],[6,2],[6,5]],"
         "\"edges_assignment\":[\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"V\",\"V\",\"V\",\"V\",\"M\",\"M\"]}";
     enum { MOST = 16, TICKS = 300 };
-    const float none[3] = { 0.0f, 0.0f, 0.0f }, stiffness = 0.01f, pi = 3.14159265f;
+    const float stiffness = 0.01f, pi = 3.14159265f;
     kiriFold folds[MOST];
     float ways[MOST];
     Import drawing = { 0 };
     START_HOST(host);
     host.every = 50;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     assert_true(Import_Read(&drawing, file, (int64_t)strlen(file), 0.01) && Import_Join(&drawing, 0.01));
     int32_t count = Creases_Make(&drawing, 0.001f, stiffness, folds, ways, MOST);
     Import_Free(&drawing);
@@ -469,8 +442,7 @@ TEST(WaterbombFolds)
         }
         OK(Host_Tick(&host, Dt, 2));
     }
-    kiriPieceState piece;
-    OK(kiriSheet_GetPiece(host.world, sheet, 0, &piece));
+    kiriPieceState piece = World_PieceState(host.world, sheet, 0);
     double size[3], most = 0.0, least = 1.0, all = 0.0;
     for (int a = 0; a < 3; ++a) {
         size[a] = (double)piece.upper[a] - (double)piece.lower[a];
@@ -604,7 +576,7 @@ TEST(IncrementalEqualsFromScratch)
 static bool SetInTick(int32_t when)
 {
     enum { FOLDS = 5 };
-    const float none[3] = { 0.0f, 0.0f, 0.0f }, cut[4] = { -0.01f, 0.02f, 0.11f, 0.03f };
+    const float cut[4] = { -0.01f, 0.02f, 0.11f, 0.03f };
     const kiriBudget budget = { 16, 400, 100, 0 };
     kiriFold folds[FOLDS];
     kiriSheetDef def = StiffDef();
@@ -614,7 +586,7 @@ static bool SetInTick(int32_t when)
         float u = 0.1f * (float)(f + 1) / (FOLDS + 1);
         folds[f] = (kiriFold){ { u, -0.01f }, { u, 0.06f }, 0.01f, 0.0f, 0.0f };
     }
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     def.material.airDamping = 30.0f;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, 10, 5, folds, FOLDS);
     OK(kiriWorld_SetBudget(host.world, &budget));
@@ -626,9 +598,7 @@ static bool SetInTick(int32_t when)
         }
     }
     assert_in_range(tick, 20, 200);
-    for (int t = 0; t < 60 && tick > when; ++t) {
-        OK(Host_Tick(&host, Dt, 2));
-    }
+    Host_Ticks(&host, 60 && tick > when, Dt, 2);
     for (int f = 0; f < FOLDS && tick > when; ++f) {
         assert_true(fabs(StateOf(&host, sheet, f).angle - 0.3) < 0.03);
     }

@@ -20,7 +20,6 @@ TEST(SettingsAreADefs)
     uint64_t hash[2];
     for (int way = 0; way < 2; ++way) {
         kiriSheetDef def = Host_SmallDef(), other = def;
-        kiriSheetSettings settings;
         const float line[4] = { -0.1f, 0.43f, 0.7f, 0.51f };
         START_HOST(host);
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &other.material)); /* with Poisson's ratio, which cotton has not */
@@ -35,7 +34,7 @@ TEST(SettingsAreADefs)
         other.maxFrames = 7;
         other.normals = 0;
         kiriSheet sheet = Host_AddRectangle(&host, way == 0 ? &other : &def, 1.0f, 1.0f, 4, 4);
-        OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+        kiriSheetSettings settings = World_Settings(host.world, sheet);
         settings.material = other.material;
         settings.timeStepping = other.timeStepping;
         settings.skinning = other.skinning;
@@ -184,8 +183,7 @@ TEST(PointHasANormal)
     def.material.detail = 0;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);
     kiriFrame frames[4];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, 4, &count));
+    World_GetFrames(host.world, sheet, frames, 4);
     for (int i = 0; i < 4; ++i) {
         OK(kiriFrame_Hold(host.world, frames[i], places[i], eye));
     }
@@ -311,8 +309,7 @@ TEST(WindIsNotOvertaken)
         kiriWind wind = Wind(0.0f, 0.0f, 200.0f, 1.5f, 0.1f);
         START_HOST(host);
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
-        const float none[3] = { 0.0f, 0.0f, 0.0f };
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         def.material.airDamping = 0.0f;
         def.timeStepping = way % 2;
         def.model = way / 2;
@@ -335,9 +332,8 @@ static kiriPin PinTo(Host* host, kiriSheet sheet, kiriObstacle obstacle, float u
 {
     kiriPointState point = PointAt(host, sheet, u, v);
     kiriPinDef def = Host_PinDef(u, v, point.position[0], point.position[1], point.position[2]);
-    kiriPin pin;
     def.obstacle = obstacle;
-    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    kiriPin pin = World_AddPin(host->world, sheet, &def);
     return pin;
 }
 
@@ -355,8 +351,6 @@ TEST(PinsBreak)
     const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
     kiriEvent event = { 0 };
     kiriPin pins[4];
-    kiriPinState pinState;
-    int32_t count;
     START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pins[0]));
@@ -364,7 +358,7 @@ TEST(PinsBreak)
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
     OK(kiriPin_SetBreakForce(host.world, pins[0], (float)(3.0 * weight)));
     OK(kiriPin_SetBreakForce(host.world, pins[1], (float)(0.05 * weight)));
-    OK(kiriPin_GetState(host.world, pins[1], &pinState));
+    kiriPinState pinState = World_PinState(host.world, pins[1]);
     assert_true(pinState.breakForce == (float)(0.05 * weight));
     double most = 0.0;
     int32_t broken = 0;
@@ -377,7 +371,7 @@ TEST(PinsBreak)
     assert_int_equal(broken, 1);
     assert_true(event.pin == pins[1] && event.sheet == sheet && most < 0.0501 * weight);
     assert_int_equal(kiriPin_GetState(host.world, pins[1], &pinState), KIRI_ERROR_ID);
-    OK(kiriSheet_GetPins(host.world, sheet, pins, 4, &count));
+    int32_t count = World_GetPins(host.world, sheet, pins, 4);
     assert_int_equal(count, 1);
     const float pull[3] = { 0.0f, 0.0f, (float)(-10.0 * weight) }, none[3] = { 0.0f, 0.0f, 0.0f };
     const float at[2] = { 0.5f, 0.5f };
@@ -396,12 +390,11 @@ TEST(PinsBreak)
    the rms force of the pin. */
 static double Draw(int32_t substeps)
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     double squares = 0.0;
     kiriSheetDef def = DefaultSheet();
     START_HOST(host);
     host.every = 60;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     def.frameCount = 25;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
     kiriPin pin = PinTo(&host, sheet, 0, 0.0f, 1.0f);
@@ -425,11 +418,10 @@ TEST(HeldFrameMovesEvenly)
 {
     kiriSheetDef def = Host_SmallDef();
     kiriFrame frames[8];
-    int32_t count;
     const float rotation[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, 8, &count));
+    World_GetFrames(host.world, sheet, frames, 8);
     kiriFrameState frame = World_FrameState(host.world, frames[0]);
     float position[3] = { frame.position[0], frame.position[1], frame.position[2] };
     for (int i = 0; i < 10; ++i) {
@@ -502,7 +494,6 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
     static const float tos[STRIP_EDGES][2] = { { 0.0f, 0.05f }, { 0.2f, 0.05f }, { 0.2f, 0.0f } };
     static const float tips[STRIP_EDGES][2] = { { 0.2f, 0.025f }, { 0.0f, 0.025f }, { 0.1f, 0.05f } };
     const float *from = froms[edge], *to = tos[edge];
-    kiriPin clamp;
     kiriFrame frames[STRIP_FRAMES];
     START_HOST(host);
     host.every = 600;
@@ -513,7 +504,7 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
     def.skinning = skinning;
     def.sleepSpeed = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.05f, 40, 10);
-    OK(kiriSheet_ClampLine(host.world, sheet, from, to, &clamp));
+    World_Clamp(host.world, sheet, from, to);
     Host_Ticks(&host, 600, DT, 2);
     OK(kiriSheet_GetFrames(host.world, sheet, frames, STRIP_FRAMES, &strip->count));
     for (int32_t i = 0; i < strip->count; ++i) {
@@ -570,8 +561,6 @@ static kiriPointState HangHalf(float push)
     static const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.1f }, pushed[2] = { 0.2f, 0.08f };
     static const float way[4] = { -0.01f, 0.05f, 0.21f, 0.05f };
     const float force[3] = { 0.0f, 0.0f, push }, none[3] = { 0.0f, 0.0f, 0.0f };
-    kiriPin clamp;
-    kiriCut cut;
     START_HOST(host);
     host.every = 120;
     kiriSheetDef def = DefaultSheet();
@@ -581,8 +570,8 @@ static kiriPointState HangHalf(float push)
     def.skinning = KIRI_SKINNING_SMOOTH;
     def.sleepSpeed = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.1f, 20, 10);
-    OK(kiriSheet_ClampLine(host.world, sheet, from, to, &clamp));
-    OK(kiriBeginCut(host.world, sheet, way, &cut));
+    World_Clamp(host.world, sheet, from, to);
+    kiriCut cut = World_BeginCut(host.world, sheet, way);
     OK(kiriCut_Extend(host.world, cut, way + 2, 1));
     OK(kiriCut_End(host.world, cut));
     for (int i = 0; i < 120; ++i) {
@@ -603,7 +592,6 @@ TEST(SmoothClampKeepsPiecesApart)
 
 static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 {
-    kiriObstacle ball;
     kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.05f;
@@ -612,7 +600,7 @@ static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
     def.position[0] = x;
     def.position[1] = y;
     def.position[2] = z;
-    OK(kiriCreateObstacle(host->world, &def, &ball));
+    kiriObstacle ball = World_AddObstacle(host->world, &def);
     return ball;
 }
 
@@ -664,7 +652,7 @@ TEST(BodyAtPinKeepsMomentum)
         const float none[3] = { 0.0f, 0.0f, 0.0f },
                     turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
         START_HOST(host);
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         def.material.airDamping = 0.0f;
         def.sleepSpeed = 0.0f;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -752,7 +740,6 @@ TEST(VelocityIsRigid)
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
     for (int32_t model = 0; model < 2; ++model) {
         kiriSheetDef def = Host_SmallDef();
-        kiriPieceState piece;
         START_HOST(host);
         def.material.detail = 0; /* velocities are of the surface without it */
         def.model = model;
@@ -773,7 +760,7 @@ TEST(VelocityIsRigid)
         OK(Host_Tick(&host, DT, 2));
         OK(kiriSheet_SetVelocity(host.world, sheet, none, none));
         OK(kiriFrame_SetPieceVelocity(host.world, Host_FrameOf(&host, sheet, 1), velocity, none));
-        OK(kiriSheet_GetPiece(host.world, sheet, 0, &piece));
+        kiriPieceState piece = World_PieceState(host.world, sheet, 0);
         assert_true(piece.momentum[0] == 0.0);
         OK(kiriSheet_GetPiece(host.world, sheet, 1, &piece));
         assert_true(fabs(piece.momentum[0] - piece.mass) < 1e-12);
@@ -791,7 +778,6 @@ TEST(UserDataStays)
 {
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, across[4] = { 0.4f, 0.4f, 1.1f, 0.4f };
     kiriSheetDef def = Host_SmallDef();
-    kiriSheet detached;
     uint64_t data;
     START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
@@ -810,7 +796,7 @@ TEST(UserDataStays)
     assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
     assert_true(PieceData(&host, sheet, 0) == 5 && PieceData(&host, sheet, 1) == 6 && PieceData(&host, sheet, 2) == 6);
     kiriPointState point = PointAt(&host, sheet, 0.8f, 0.2f);
-    OK(kiriFrame_DetachPiece(host.world, point.frame, &detached));
+    kiriSheet detached = World_Detach(host.world, point.frame);
     OK(kiriFrame_GetPieceUserData(host.world, point.frame, &data));
     assert_true(data == 6);
     OK(kiriPin_GetUserData(host.world, pin, &data));

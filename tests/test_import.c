@@ -182,8 +182,7 @@ static void CutAndCheckUvs(Host* host, kiriSheet sheet, const Import* mesh, doub
         CheckUvs(host, sheet, mesh, tolerance);
     }
     assert_int_equal(Host_Counts(host, sheet).pieces, 2);
-    kiriSheet part;
-    OK(kiriFrame_DetachPiece(host->world, Host_FrameOf(host, sheet, 1), &part));
+    kiriSheet part = World_Detach(host->world, Host_FrameOf(host, sheet, 1));
     CheckUvs(host, sheet, mesh, tolerance);
     CheckUvs(host, part, mesh, tolerance);
 }
@@ -403,8 +402,7 @@ TEST(LeavesOutSlivers)
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
     GoOnElsewhere(&host); /* sources keep their numbers in saves, and in parts */
     CheckUvs(&host, sheet, &A, 1e-3);
-    kiriSheet part;
-    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part));
+    kiriSheet part = World_Detach(host.world, Host_FrameOf(&host, sheet, 1));
     CheckUvs(&host, sheet, &A, 1e-3);
     CheckUvs(&host, part, &A, 1e-3);
 }

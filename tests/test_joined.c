@@ -10,9 +10,8 @@ static const float dt = 1.0f / 60.0f;
 
 static void StartStill(Host* host, const kiriBudget* budget)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     Host_Start(host);
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
     OK(kiriWorld_SetBudget(host->world, budget));
 }
 
@@ -184,7 +183,6 @@ TEST(SameInTheEnd)
 static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bladeTicks)
 {
     HOST(host);
-    kiriCut cut;
     int32_t ticks = 0;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = squares;
@@ -192,7 +190,7 @@ static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bl
     StartStill(&host, budget);
     host.every = 50;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, squares, squares);
-    OK(kiriBeginCut(host.world, sheet, (const float[]){ -0.05f, 0.47f }, &cut));
+    kiriCut cut = World_BeginCut(host.world, sheet, (const float[]){ -0.05f, 0.47f });
     for (int32_t k = 1; k <= bladeTicks; ++k) {
         float share = (float)k / (float)bladeTicks;
         OK(kiriCut_Extend(host.world, cut, (const float[]){ -0.05f + 1.1f * share, 0.47f + 0.06f * share }, 1));

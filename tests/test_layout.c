@@ -187,9 +187,7 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     double force[3], torque[3];
     AddClampedStrip(&host, &def, count, aside, none, 160, clamps);
     OK(kiriPin_SetPose(host.world, clamps[1], middle, turned));
-    for (int32_t tick = 0; tick < 200; ++tick) {
-        OK(kiriWorld_Tick(host.world, 0.5f, 1));
-    }
+    World_Ticks(host.world, 200, 0.5f, 1);
     OK(kiriPin_GetReaction(host.world, clamps[1], force, torque));
     Host_Stop(&host);
     double nu = (double)poissonsRatio, h = 5e-4, D = 7.4e8 * h * h * h / (12.0 * (1.0 - nu * nu));
@@ -224,9 +222,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     Host host;
     kiriPin clamps[2];
     kiriSheet sheet = AddClampedStrip(&host, &def, count, 0.0, load, 80, clamps);
-    for (int32_t tick = 0; tick < 100; ++tick) {
-        OK(kiriWorld_Tick(host.world, 0.5f, 1));
-    }
+    World_Ticks(host.world, 100, 0.5f, 1);
     kiriMesh mesh = Host_Mesh(&host, sheet);
     double low = 0.0, force[3], torque[3];
     for (int32_t i = 0; i < mesh.vertexCount; ++i) {
@@ -285,9 +281,7 @@ static double ElongationOfStrip(Hold hold, bool isHinged, int32_t count, double 
     if (hold == PULLED) {
         OK(kiriPin_SetTarget(host.world, pins[1], (float[]){ length * (1.0f + strain), 0.5f * width, 0.0f }));
     }
-    for (int32_t tick = 0; tick < 600; ++tick) {
-        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 2));
-    }
+    World_Ticks(host.world, 600, 1.0f / 60.0f, 2);
     kiriMesh mesh = Host_Mesh(&host, sheet);
     double far = 0.0, near = 0.0;
     for (int32_t row = 0; row <= ROWS; ++row) {
@@ -323,7 +317,7 @@ static double HeightOfTeardrop(int32_t count, int32_t ticks)
     kiriSheetDef def = PaperDef(80, 1.0f);
     def.skinning = KIRI_SKINNING_SMOOTH;
     def.frameCount = def.maxFrames = count;
-    OK(kiriWorld_SetGravity(host.world, (float[]){ 0.0f, 0.0f, 0.0f }));
+    World_StopGravity(host.world);
     kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 80, 8);
     for (int k = 0; k < 2; ++k) {
         OK(kiriSheet_ClampLine(host.world, sheet, ends + 4 * k, ends + 4 * k + 2, &clamps[k]));

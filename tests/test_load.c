@@ -50,8 +50,7 @@ static kiriSheet AddStrip(Host* host, const Strip* strip)
 static void TipOf(const Host* host, kiriSheet sheet, const Strip* strip, double tip[3])
 {
     kiriFrame frames[MOST_ALONG];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST_ALONG, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, MOST_ALONG);
     kiriFrameState state = World_FrameState(host->world, frames[count - 1]);
     for (int a = 0; a < 3; ++a) {
         tip[a] = state.position[a] + (strip->length - state.restPoint[0]) * state.rotation[a];
@@ -141,7 +140,7 @@ TEST(EndLoad)
         const double* expected = cases[k % 2];
         const float none[3] = { 0.0f, 0.0f, 0.0f }, down[3] = { 0.0f, 0.0f, (float)-expected[0] };
         const float tip[2] = { 10.0f, 0.5f }, from[2] = { 10.0f, 0.0f }, to[2] = { 10.0f, 1.0f };
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         kiriSheet sheet = AddStrip(&host, &strip);
         kiriPin clamp;
         ClampStart(&host, sheet, &strip, &clamp);
@@ -198,7 +197,7 @@ TEST(LineLoads)
         def.gridResolution = 24;
         def.frameCount = 11;
         def.material.airDamping = 0.0f;
-        OK(kiriWorld_SetGravity(host.world, nothing));
+        World_StopGravity(host.world);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
         if (i % 2 == 1) {
             Host_Cut(&host, sheet, cut, 2);
@@ -218,7 +217,7 @@ TEST(LineAlongCut)
     static const float across[4] = { 0.4f, -0.1f, 0.4f, 1.1f }, q[3] = { 0.0f, 0.0f, 3.0f };
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
     START_HOST(host);
-    OK(kiriWorld_SetGravity(host.world, nothing));
+    World_StopGravity(host.world);
     kiriSheetDef def = Host_SmallDef();
     def.material.airDamping = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -245,7 +244,7 @@ TEST(PointLoads)
     static const float at[2] = { 0.9f, 0.35f }, force[3] = { 1.0f, -2.0f, 0.5f }, pressure[3] = { 0.0f, 0.0f, 4.0f };
     const double place[3] = { 0.9f, 0.35f, 0.0 }, middle[3] = { 0.5, 0.5, 0.0 };
     START_HOST(host);
-    OK(kiriWorld_SetGravity(host.world, nothing));
+    World_StopGravity(host.world);
     kiriSheetDef def = Host_SmallDef();
     def.material.airDamping = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -282,8 +281,7 @@ static void HoldSheet(Host* host, kiriSheet sheet, int way)
     }
     if (way == HOLD || way == MIXED) {
         kiriFrame frame;
-        int32_t count;
-        OK(kiriSheet_GetFrames(host->world, sheet, &frame, 1, &count));
+        World_GetFrames(host->world, sheet, &frame, 1);
         kiriFrameState state = World_FrameState(host->world, frame);
         OK(kiriFrame_Hold(host->world, frame, state.position, eye));
     }
@@ -294,18 +292,16 @@ static void SumReactions(const Host* host, kiriSheet sheet, double force[3], dou
 {
     kiriPin pins[8];
     kiriFrame frames[64];
-    int32_t pinCount, frameCount;
-    OK(kiriSheet_GetPins(host->world, sheet, pins, 8, &pinCount));
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &frameCount));
+    int32_t pinCount = World_GetPins(host->world, sheet, pins, 8);
+    int32_t frameCount = World_GetFrames(host->world, sheet, frames, 64);
     memset(force, 0, 3 * sizeof(double));
     memset(torque, 0, 3 * sizeof(double));
     for (int32_t i = 0; i < pinCount + frameCount; ++i) {
         double f[3], t[3];
         float at[3];
         if (i < pinCount) {
-            kiriPinState state;
             OK(kiriPin_GetReaction(host->world, pins[i], f, t));
-            OK(kiriPin_GetState(host->world, pins[i], &state));
+            kiriPinState state = World_PinState(host->world, pins[i]);
             memcpy(at, state.target, sizeof(at));
         } else {
             OK(kiriFrame_GetReaction(host->world, frames[i - pinCount], f, t));
@@ -397,8 +393,7 @@ TEST(HoldsBearWind)
         kiriSheetDef def = ReactionDef(model);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 6, 3);
         kiriFrame frames[64];
-        int32_t count;
-        OK(kiriSheet_GetFrames(host.world, sheet, frames, 64, &count));
+        int32_t count = World_GetFrames(host.world, sheet, frames, 64);
         for (int32_t i = 0; i < count; ++i) {
             kiriFrameState frame = World_FrameState(host.world, frames[i]);
             OK(kiriFrame_Hold(host.world, frames[i], frame.position, eye));
@@ -434,13 +429,13 @@ static void Beam_Start(Beam* beam, const Strip* strip,
                        kiriResult (*first)(kiriWorld*, kiriSheet, const float*, const float*, kiriPin*),
                        kiriResult (*last)(kiriWorld*, kiriSheet, const float*, const float*, kiriPin*))
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f }, length = (float)strip->length, width = (float)strip->width;
+    const float length = (float)strip->length, width = (float)strip->width;
     const float from[2][2] = { { 0.0f, 0.0f }, { length, width } }, to[2][2] = { { 0.0f, width }, { length, 0.0f } };
     memset(beam, 0, sizeof(*beam));
     beam->strip = *strip;
     Host_Start(&beam->host);
     beam->host.every = 100;
-    OK(kiriWorld_SetGravity(beam->host.world, none));
+    World_StopGravity(beam->host.world);
     beam->sheet = AddStrip(&beam->host, strip);
     if (first != NULL) {
         OK(first(beam->host.world, beam->sheet, from[0], to[0], &beam->ends[0]));
@@ -453,8 +448,7 @@ static void Beam_Start(Beam* beam, const Strip* strip,
 static kiriFrameState FrameStateOf(const Beam* beam, int32_t frame)
 {
     kiriFrame frames[MOST_ALONG];
-    int32_t count;
-    OK(kiriSheet_GetFrames(beam->host.world, beam->sheet, frames, MOST_ALONG, &count));
+    World_GetFrames(beam->host.world, beam->sheet, frames, MOST_ALONG);
     return World_FrameState(beam->host.world, frames[frame]);
 }
 
@@ -615,8 +609,7 @@ TEST(Models)
 
 static bool IsAwake(const Host* host, kiriSheet sheet)
 {
-    int32_t awake;
-    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    int32_t awake = World_IsAwake(host->world, sheet);
     return awake != 0;
 }
 
@@ -632,10 +625,8 @@ TEST(Sleep)
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 6, 6);
     HoldSheet(&host, sheet, CLAMP);
     kiriPin clamp;
-    kiriPinState pose;
-    int32_t count;
-    OK(kiriSheet_GetPins(host.world, sheet, &clamp, 1, &count));
-    OK(kiriPin_GetState(host.world, clamp, &pose));
+    World_GetPins(host.world, sheet, &clamp, 1);
+    kiriPinState pose = World_PinState(host.world, clamp);
     double weight = Host_Totals(&host, sheet).mass * (double)9.81f;
     for (int k = 0; k < 6; ++k) {
         int ticks = 0;
@@ -698,8 +689,7 @@ static kiriSheet HangCurtain(Host* host, kiriPin* clamp)
 static void SumPins(const Host* host, kiriSheet sheet, double force[3])
 {
     kiriPin pins[4];
-    int32_t count;
-    OK(kiriSheet_GetPins(host->world, sheet, pins, 4, &count));
+    int32_t count = World_GetPins(host->world, sheet, pins, 4);
     assert_int_equal(count, 2);
     for (int32_t i = 0; i < count; ++i) {
         double one[3], torque[3];
@@ -731,16 +721,15 @@ TEST(Detach)
     static const float across[4] = { 0.0f, 0.7f, 1.0f, 0.74f };
     HOST_PAIR(hosts);
     kiriPin clamps[2], lower, own[2], rest[2];
-    kiriSheet sheets[2], detached;
+    kiriSheet sheets[2];
     kiriFrame frames[64];
-    int32_t count;
     for (int k = 0; k < 2; ++k) {
         sheets[k] = HangCurtain(&hosts[k], &clamps[k]);
         OK(kiriSheet_ClampLine(hosts[k].world, sheets[k], across, across + 2, &lower));
         OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 2));
     }
-    OK(kiriFrame_DetachPiece(hosts[1].world, Host_FrameOf(&hosts[1], sheets[1], 1), &detached));
-    OK(kiriSheet_GetPins(hosts[1].world, sheets[1], rest, 2, &count));
+    kiriSheet detached = World_Detach(hosts[1].world, Host_FrameOf(&hosts[1], sheets[1], 1));
+    int32_t count = World_GetPins(hosts[1].world, sheets[1], rest, 2);
     assert_true(count == 2 && rest[0] == clamps[1] && rest[1] == lower);
     OK(kiriSheet_GetPins(hosts[1].world, detached, own, 2, &count));
     assert_true(count == 2 && own[0] != rest[0] && own[1] != rest[1]);
@@ -752,9 +741,8 @@ TEST(Detach)
     }
     OK(kiriSheet_GetFrames(hosts[0].world, sheets[0], frames, 64, &count));
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState a, b;
-        OK(kiriFrame_GetState(hosts[0].world, frames[i], &a));
-        OK(kiriFrame_GetState(hosts[1].world, frames[i], &b));
+        kiriFrameState a = World_FrameState(hosts[0].world, frames[i]);
+        kiriFrameState b = World_FrameState(hosts[1].world, frames[i]);
         assert_memory_equal(&a, &b, sizeof(a));
     }
     OK(kiriDestroySheet(hosts[1].world, detached));
@@ -766,17 +754,16 @@ TEST(Detach)
 TEST(DestroyPieces)
 {
     HOST(host);
-    kiriPin clamp, left;
+    kiriPin clamp;
     static const float beside[4] = { 0.1f, 0.2f, 0.2f, 0.2f };
     kiriSheet sheet = HangCurtain(&host, &clamp);
-    OK(kiriSheet_ClampLine(host.world, sheet, beside, beside + 2, &left));
+    kiriPin left = World_Clamp(host.world, sheet, beside, beside + 2);
     kiriFrame frame;
-    int32_t count, piece;
     kiriPointState ofLeft = World_PointState(host.world, sheet, (float[]){ 0.15f, 0.2f });
     OK(kiriFrame_DestroyPiece(host.world, ofLeft.frame));
     assert_int_equal(kiriDestroyPin(host.world, left), KIRI_ERROR_ID);
-    OK(kiriSheet_GetFrames(host.world, sheet, &frame, 1, &count));
-    OK(kiriFrame_GetPiece(host.world, frame, &piece));
+    World_GetFrames(host.world, sheet, &frame, 1);
+    World_PieceOf(host.world, frame);
     OK(Host_Tick(&host, 0.01f, 1));
     double force[3], torque[3];
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));

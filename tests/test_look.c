@@ -20,8 +20,7 @@ typedef struct Looks {
 static void HoldOnArc(const Host* host, kiriSheet sheet, double angle)
 {
     kiriFrame frames[FRAMES];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, FRAMES, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, FRAMES);
     assert_int_equal(count, FRAMES);
     for (int i = 0; i < FRAMES; ++i) {
         kiriFrameState state = World_FrameState(host->world, frames[i]);
@@ -164,8 +163,7 @@ static kiriSheet SlitSheet(Host* host, double end, double slant)
     Host_Cut(host, sheet, slit, 2);
     OK(Host_Tick(host, 0.01f, 1));
     kiriFrame frames[4];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, 4, &count));
+    World_GetFrames(host->world, sheet, frames, 4);
     for (int i = 0; i < 4; ++i) {
         kiriFrameState state = World_FrameState(host->world, frames[i]);
         double c = i < 2 ? 0.8 : 1.0, s = i < 2 ? (i == 0 ? 0.6 : -0.6) : 0.0, v = state.restPoint[1];

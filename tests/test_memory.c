@@ -56,7 +56,6 @@ static void Act(Host* host, kiriSheet sheet, int tick)
 {
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     kiriFrame frames[64];
-    int32_t count;
     float force[3] = { 0.01f, 0.02f, tick % 2 == 0 ? 0.0f : 0.03f }, torque[3] = { 0.0f, 0.0f, 0.001f };
     float place[3] = { 0.1f, 0.1f + 0.001f * (float)tick, 0.0f };
     kiriContact contacts[4];
@@ -64,7 +63,7 @@ static void Act(Host* host, kiriSheet sheet, int tick)
         kiriContact contact = { .point = i, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.001f, .friction = 0.3f };
         contacts[i] = contact;
     }
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));
+    World_GetFrames(host->world, sheet, frames, 64);
     OK(kiriFrame_Hold(host->world, frames[0], place, eye));
     OK(kiriFrame_ApplyForce(host->world, frames[1], force, torque));
     OK(kiriSheet_SetContacts(host->world, sheet, contacts, 1 + tick % 4));

@@ -25,9 +25,8 @@ static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* 
                        int32_t pieces, int32_t vertices)
 {
     kiriSheetDef def = DefOf(points, vertexCount, indices, triangleCount);
-    kiriSheet sheet;
     START_HOST(host);
-    OK(kiriCreateSheet(host.world, &def, &sheet));
+    kiriSheet sheet = World_AddSheet(host.world, &def);
     assert_int_equal(Host_Counts(&host, sheet).pieces, pieces);
     assert_int_equal(Host_Counts(&host, sheet).vertices, vertices);
     OK(Host_Tick(&host, 0.01f, 1));

@@ -61,9 +61,8 @@ static void CheckPoints(const Pile* with, const Pile* without)
 {
     for (int32_t k = 0; k < 121; ++k) {
         const float at[2] = { 0.1f * (float)(k % 11), 0.1f * (float)(k / 11) };
-        kiriPointState a, b;
-        OK(kiriSheet_GetPoint(with->host.world, with->sheets[k % SHEETS], at, &a));
-        OK(kiriSheet_GetPoint(without->host.world, without->sheets[k % SHEETS], at, &b));
+        kiriPointState a = World_PointState(with->host.world, with->sheets[k % SHEETS], at);
+        kiriPointState b = World_PointState(without->host.world, without->sheets[k % SHEETS], at);
         for (int c = 0; c < 3; ++c) {
             assert_true(fabsf(a.normal[c] - b.normal[c]) < 1e-5f);
         }
@@ -108,19 +107,16 @@ TEST(AllElseIsTheSame)
 TEST(NormalsComeAndGo)
 {
     Pile piles[2];
-    kiriSheetSettings settings;
     float copied[3];
     for (int way = 0; way < 2; ++way) {
         Start(&piles[way], way == 0, KIRI_SKINNING_LINEAR, 1);
-        for (int32_t t = 0; t < 20; ++t) {
-            OK(Host_Tick(&piles[way].host, dt, 2));
-        }
+        Host_Ticks(&piles[way].host, 20, dt, 2);
     }
     kiriWorld* world = piles[1].host.world;
     kiriSheet sheet = piles[1].sheets[0];
     assert_int_equal(kiriSheet_CopyVertices(world, sheet, 0, 1, NULL, 0, copied, 12), KIRI_ERROR_STATE);
     OK(kiriSheet_CopyVertices(world, sheet, 0, 1, copied, 12, NULL, 0));
-    OK(kiriSheet_GetSettings(world, sheet, &settings));
+    kiriSheetSettings settings = World_Settings(world, sheet);
     assert_int_equal(settings.normals, 0);
     settings.normals = 1;
     OK(kiriSheet_SetSettings(world, sheet, &settings));

@@ -330,9 +330,7 @@ TEST(PlateRestsOnAFloor)
 static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
 {
     kiriSheet sheet = AddPlate(host, 0.0f, 0.2051f, 0.001f);
-    for (int i = 0; i < 120 && IsAwake(host, sheet); ++i) {
-        OK(Host_Tick(host, dt, 2));
-    }
+    Host_Ticks(host, 120 && IsAwake(host, sheet), dt, 2);
     assert_false(IsAwake(host, sheet));
     return sheet;
 }
@@ -343,8 +341,7 @@ TEST(PushSpeedIsKept)
     static const float speeds[] = { 0.05f, 0.1f, 1.0f };
     for (int k = 0; k < 3; ++k) {
         START_HOST(host);
-        static const float none[3] = { 0.0f, 0.0f, 0.0f };
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         kiriObstacleDef floor = DefOf(KIRI_OBSTACLE_PLANE);
         floor.pushSpeed = speeds[k];
         Add(&host, &floor);
@@ -427,8 +424,7 @@ TEST(LiftsAndConveyorsCarry)
 TEST(SheetsShareAnObstacle)
 {
     START_HOST(host);
-    const float noGravity[3] = { 0 };
-    OK(kiriWorld_SetGravity(host.world, noGravity));
+    World_StopGravity(host.world);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
     def.mass = 0.02f;
     def.friction = 0.0f;
@@ -476,9 +472,8 @@ static double FastestOverBox(int32_t skinning, float beside)
     def.velocity[2] = 1.0f;
     kiriObstacle box = Add(&host, &def);
     kiriFrame frames[FRAMES];
-    int32_t count;
     double fastest = 0.0;
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
+    int32_t count = World_GetFrames(host.world, sheet, frames, FRAMES);
     kiriFrameState frame = World_FrameState(host.world, frames[0]);
     OK(kiriFrame_Hold(host.world, frames[0], frame.position, frame.rotation));
     for (int t = 0; t < TICKS; ++t) {
@@ -598,8 +593,7 @@ TEST(HeavyBodiesRestOnCloth)
         kiriSheet sheet = Host_AddRectangle(&host, &cloth, 1.0f, 1.0f, 40, 40);
         double weight = 0.0, mass = 100.0 * TotalsOf(&host, sheet).mass;
         for (int i = 0; i < 4; ++i) {
-            kiriPin pin;
-            OK(kiriSheet_HingeLine(host.world, sheet, corners[i], corners[i + 1], &pin));
+            World_Hinge(host.world, sheet, corners[i], corners[i + 1]);
         }
         kiriObstacleDef def = BallDef(mass);
         kiriObstacle ball = Add(&host, &def);

@@ -31,7 +31,6 @@ static kiriSheet AddSquare(Host* host, const kiriSheetDef* def)
 
 TEST(PairsAreFoundWhereNear)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const struct {
         float x, z;
         int32_t touches, pairs;
@@ -41,7 +40,7 @@ TEST(PairsAreFoundWhereNear)
     };
     for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); ++i) {
         START_HOST(host);
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
         AddSquare(&host, &def);
         def = SquareDef(cases[i].x, 0.02f, cases[i].z);
@@ -81,9 +80,7 @@ TEST(WhoWasAloneIsFound)
     kiriSheet other = AddSquare(&host, &def);
     OK(Host_Tick(&host, dt, 2)); /* both are known where they are */
     OK(kiriDestroySheet(host.world, other));
-    for (int i = 0; i < 600 && IsAwake(&host, first); ++i) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 600 && IsAwake(&host, first), dt, 2);
     assert_false(IsAwake(&host, first));
     def = SquareDef(0.02f, 0.0f, 0.006f);
     AddSquare(&host, &def);
@@ -117,9 +114,7 @@ TEST(SleeperIsMet)
         if (way < 2) {
             AddPinnedSquare(&host, z, moved);
         }
-        for (int tick = 0; tick < 600 && IsAwake(&host, sleeper); ++tick) {
-            OK(Host_Tick(&host, dt, 2));
-        }
+        Host_Ticks(&host, 600 && IsAwake(&host, sleeper), dt, 2);
         assert_false(IsAwake(&host, sleeper));
         if (way >= 2) {
             AddPinnedSquare(&host, z, moved); /* it was alone so far */

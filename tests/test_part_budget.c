@@ -110,8 +110,7 @@ static int32_t ChooseTargets(const Host* host, kiriSheet sheet, uint32_t* seed, 
 
 static double AreaOf(const Host* host, kiriSheet sheet, kiriFrame frame)
 {
-    int32_t piece;
-    OK(kiriFrame_GetPiece(host->world, frame, &piece));
+    int32_t piece = World_PieceOf(host->world, frame);
     kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state.area;
 }
@@ -227,12 +226,11 @@ static void Disturb(Host* host, kiriSheet sheet, kiriFrame leaves, kiriFrame oth
 /* Three strips, of which one is detached. Under a budget it waits: meanwhile something else happens. */
 static void StartDisturbed(Host* host, int disturbance, bool hasBudget)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const kiriBudget budget = { 0, 0, 60, 0 };
     kiriResult result;
     kiriSheet made;
     Host_Start(host);
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
     kiriSheetDef def = DefOfRun(1);
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 70, 70);
     Host_Cut(host, sheet, (float[]){ -0.1f, 0.241f, 1.1f, 0.252f }, 2);
@@ -332,7 +330,6 @@ TEST(Disturbed)
 
 static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget, int32_t* waited)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     static Gallery galleries[2];
     HOST_PAIR(hosts);
     double gone[2] = { 0.0, 0.0 };
@@ -342,7 +339,7 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
         kiriSheetDef def = DefOfRun(run);
         Host_Start(&hosts[k]);
         hosts[k].every = squares > 60 ? 4 : 0;
-        OK(kiriWorld_SetGravity(hosts[k].world, none));
+        World_StopGravity(hosts[k].world);
         Host_AddRectangle(&hosts[k], &def, 1.0f, 1.0f, squares, squares);
     }
     OK(kiriWorld_SetBudget(hosts[0].world, budget));

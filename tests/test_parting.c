@@ -9,8 +9,7 @@ enum { MOST_SHEETS = 64, MOST_PIECES = 600 };
 
 static void Weightless(Host* host)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
 }
 
 /* A square in so many pieces; blades are a little off the lines of the mesh. */
@@ -170,7 +169,6 @@ TEST(PartsCountOtherMassesExactly)
     HOST_PAIR(hosts);
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(24);
-        kiriSheet part;
         def.frameCount = 16;
         def.paper.fromScratch = k;
         Host_Start(&hosts[k]);
@@ -178,7 +176,7 @@ TEST(PartsCountOtherMassesExactly)
         kiriSheetSettings settings = World_Settings(hosts[k].world, sheet);
         settings.material.density *= 1.7f;
         OK(kiriSheet_SetSettings(hosts[k].world, sheet, &settings));
-        OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], sheet, 0.75f, 0.5f), &part));
+        kiriSheet part = World_Detach(hosts[k].world, FrameNear(&hosts[k], sheet, 0.75f, 0.5f));
         Host_Cut(&hosts[k], part, (float[]){ 1.1f, 0.9f, 0.9f, 0.87f }, 2);
         for (int tick = 0; tick < 4; ++tick) { /* inertia enters the motion */
             OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
@@ -288,8 +286,7 @@ TEST(GoneIsNotSeen)
     int32_t* indices = malloc(sizeof(int32_t) * 3 * (size_t)before.triangleCount);
     memcpy(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
     kiriFrame gone = FrameNear(&host, sheet, 0.85f, 0.15f);
-    int32_t index;
-    OK(kiriFrame_GetPiece(host.world, gone, &index));
+    int32_t index = World_PieceOf(host.world, gone);
     kiriPieceMesh piece = World_PieceMesh(host.world, sheet, index);
     int32_t triangles = piece.triangleCount, vertices = piece.vertexCount;
     assert_true(IsHit(&host, sheet, 0.85f, 0.15f) && IsHit(&host, sheet, 0.2f, 0.15f));
@@ -325,8 +322,7 @@ TEST(GoneTouchesNothing)
     OK(Host_Tick(&host, 1.0f / 60.0f, 1));
     OK(kiriFrame_DestroyPiece(host.world, FrameNear(&host, sheet, 0.85f, 0.15f)));
     kiriFrame frames[64];
-    int32_t count;
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, 64, &count));
+    int32_t count = World_GetFrames(host.world, sheet, frames, 64);
     assert_in_range(count, 1, 64);
     for (int32_t i = 0; i < count; ++i) {
         kiriFrameState is = World_FrameState(host.world, frames[i]);
@@ -558,12 +554,11 @@ TEST(GoneIsGone)
     float at[2] = { 0.5f, 0.5f * (strip[0] + strip[1]) };
     int32_t point = piece.collisionPoints[0];
     kiriPinDef pinDef;
-    kiriPin pin, other;
     kiriDefaultPinDef(&pinDef);
     memcpy(pinDef.restPoint, at, sizeof(at));
-    OK(kiriCreatePin(host.world, wait.sheet, &pinDef, &pin));
+    kiriPin pin = World_AddPin(host.world, wait.sheet, &pinDef);
     pinDef.restPoint[1] = 0.5f * (beside[0] + beside[1]);
-    OK(kiriCreatePin(host.world, wait.sheet, &pinDef, &other));
+    kiriPin other = World_AddPin(host.world, wait.sheet, &pinDef);
     assert_true(IsHit(&host, wait.sheet, at[0], at[1]));
     kiriMesh before = Host_Mesh(&host, wait.sheet);
     int32_t* indices = malloc(sizeof(int32_t) * 3 * (size_t)before.triangleCount);
@@ -641,10 +636,9 @@ TEST(CrumbsWhileTheLargestLeaves)
     HOST(host);
     Wait wait = StartWait(&host, &budget);
     kiriSheet detached;
-    kiriPieceState largest, other;
     int32_t dropped;
-    OK(kiriSheet_GetPiece(host.world, wait.sheet, 0, &largest));
-    OK(kiriSheet_GetPiece(host.world, wait.sheet, 1, &other));
+    kiriPieceState largest = World_PieceState(host.world, wait.sheet, 0);
+    kiriPieceState other = World_PieceState(host.world, wait.sheet, 1);
     assert_true(largest.area > other.area);
     assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[0], &detached), KIRI_PENDING);
     assert_true(kiriSheet_DropCrumbs(host.world, wait.sheet, 10.0f, &dropped) >= 0);

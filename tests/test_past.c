@@ -162,9 +162,7 @@ static void Check(Past* past)
 
 static void AddSheet(Past* past)
 {
-    kiriSheet sheet;
     kiriPinDef pin;
-    kiriPin made;
     int32_t squares = Random(&past->seed) % 3 == 0 ? 68 : 4 + (int32_t)(Random(&past->seed) % 20);
     kiriSheetDef def = DefaultSheet();
     kiriDefaultPinDef(&pin);
@@ -172,9 +170,9 @@ static void AddSheet(Past* past)
     def.frameCount = 4;
     def.maxFrames = 64;
     def.position[0] = (float)Between(past, -3.0, 3.0);
-    OK(kiriCreateRectangle(past->host.world, 1.0f, 1.0f, squares, squares, &def, &sheet));
+    kiriSheet sheet = World_AddRectangle(past->host.world, 1.0f, 1.0f, squares, squares, &def);
     pin.target[0] = def.position[0];
-    OK(kiriCreatePin(past->host.world, sheet, &pin, &made));
+    World_AddPin(past->host.world, sheet, &pin);
 }
 
 static kiriSheet AnySheet(Past* past)
@@ -305,7 +303,7 @@ TEST(FollowsAStorm)
         past.host.every = 20;
         past.areStill = seed % 2 == 0;
         if (past.areStill) {
-            OK(kiriWorld_SetGravity(past.host.world, (const float[]){ 0.0f, 0.0f, 0.0f }));
+            World_StopGravity(past.host.world);
         }
         AddSheet(&past);
         Check(&past);

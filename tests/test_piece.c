@@ -325,7 +325,7 @@ static void Part_Take(Part* part, Host* host, kiriSheet sheet, int32_t piece, bo
     kiriMesh mesh = Host_Mesh(host, sheet);
     kiriPieceMesh its = MeshOf(host, sheet, piece);
     kiriFrame frames[MOST_FRAMES];
-    int32_t count, of;
+    int32_t of;
     assert_true(mesh.vertexCount <= MOST_VERTICES && mesh.triangleCount <= 2 * MOST_VERTICES);
     part->vertexCount = part->triangleCount = part->frameCount = 0;
     for (int32_t v = 0, k = 0; v < mesh.vertexCount; ++v) {
@@ -348,7 +348,7 @@ static void Part_Take(Part* part, Host* host, kiriSheet sheet, int32_t piece, bo
             part->triangleCount += k % 3 == 2;
         }
     }
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST_FRAMES, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, MOST_FRAMES);
     assert_in_range(count, 1, MOST_FRAMES);
     for (int32_t i = 0; i < count; ++i) {
         OK(kiriFrame_GetPiece(host->world, frames[i], &of));
@@ -366,7 +366,6 @@ static void Part_Check(const Part* part, Host* host, kiriSheet sheet)
     size_t vertices = (size_t)part->vertexCount;
     kiriMesh mesh = Host_Mesh(host, sheet);
     kiriFrame frames[MOST_FRAMES];
-    int32_t count;
     assert_int_equal(mesh.vertexCount, part->vertexCount);
     assert_int_equal(mesh.triangleCount, part->triangleCount);
     assert_memory_equal(mesh.restPositions, part->rest, 2 * sizeof(float) * vertices);
@@ -376,7 +375,7 @@ static void Part_Check(const Part* part, Host* host, kiriSheet sheet)
     for (int32_t k = 0; k < 3 * part->vertexCount; ++k) {
         assert_float_equal(mesh.positions[k], part->x[k], 1e-6);
     }
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST_FRAMES, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, MOST_FRAMES);
     assert_int_equal(count, part->frameCount);
     assert_memory_equal(frames, part->frames, sizeof(kiriFrame) * (size_t)count);
     for (int32_t i = 0; i < count; ++i) {
@@ -429,11 +428,10 @@ TEST(PartsAreWhatTheyWere)
             int32_t piece = (int32_t)(Random(&seed) % (uint32_t)pieces);
             uint32_t revision = Host_Mesh(&host, sheet).revision;
             kiriTotals totals = Host_Totals(&host, sheet);
-            kiriSheet detached;
             kiriDirty dirty;
             Part_Take(&own, &host, sheet, piece, false);
             Part_Take(&rest, &host, sheet, piece, true);
-            OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, piece), &detached));
+            kiriSheet detached = World_Detach(host.world, Host_FrameOf(&host, sheet, piece));
             assert_true(Host_Mesh(&host, sheet).revision > revision);
             OK(kiriSheet_GetDirty(host.world, sheet, revision, &dirty));
             assert_int_equal(dirty.newVertices.first, 0);
@@ -642,8 +640,7 @@ TEST(IdsMoveAlong)
 TEST(ContactsMoveAlong)
 {
     START_HOST(host);
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     kiriSheet sheet = Strips(&host, 2), detached;
     int32_t piece = PieceAt(&host, sheet, 0.8);
     kiriContact contact = { .point = MeshOf(&host, sheet, piece).collisionPoints[0],
@@ -759,8 +756,7 @@ TEST(CrumbsOfDef)
     def.frameCount = 100;
     for (int with = 0; with < 2; ++with) {
         def.crumbArea = with ? 0.1f : 0.0f;
-        kiriSheet sheet;
-        OK(kiriCreateSheet(host.world, &def, &sheet));
+        kiriSheet sheet = World_AddSheet(host.world, &def);
         int32_t small = StateOf(&host, sheet, 0).area < 0.1 ? 0 : 1;
         assert_true(with ? StateOf(&host, sheet, small).frames == 1 : StateOf(&host, sheet, small).frames > 1);
     }

@@ -17,13 +17,12 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
 {
     const float ends[2][2][2] = { { { 0.0f, 0.0f }, { 0.0f, (float)Width } },
                                   { { (float)Length, 0.0f }, { (float)Length, (float)Width } } };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     float points[2 * 32];
     kiriSheetDef def = DefaultSheet();
     memset(s, 0, sizeof(*s));
     Host_Start(&s->host);
     s->host.every = 100;
-    OK(kiriWorld_SetGravity(s->host.world, none));
+    World_StopGravity(s->host.world);
     for (int32_t i = 0; i < frames; ++i) {
         double u = seed > 0 ? RandomBetween(&seed, 0.25, 0.75) : 0.5, v = seed > 0 ? RandomBetween(&seed, 0.2, 0.8) : 0.5;
         points[2 * i] = (float)(Length * (i + u) / frames);
@@ -45,8 +44,7 @@ static kiriFrameState Strip_End(const Strip* s, double from, double to)
 {
     kiriFrame frames[128];
     kiriFrameState last = { 0 };
-    int32_t count;
-    OK(kiriSheet_GetFrames(s->host.world, s->sheet, frames, 128, &count));
+    int32_t count = World_GetFrames(s->host.world, s->sheet, frames, 128);
     for (int32_t i = 0; i < count; ++i) {
         kiriFrameState state = World_FrameState(s->host.world, frames[i]);
         bool isLast = state.restPoint[1] > from && state.restPoint[1] < to && state.restPoint[0] > last.restPoint[0];
@@ -274,8 +272,7 @@ TEST(PiecesKeepTheirShape)
 
     kiriFrame frames[128], leaver = 0;
     kiriSheet part = 0;
-    int32_t count;
-    OK(kiriSheet_GetFrames(s.host.world, s.sheet, frames, 128, &count));
+    int32_t count = World_GetFrames(s.host.world, s.sheet, frames, 128);
     for (int32_t i = 0; i < count; ++i) {
         kiriFrameState state = World_FrameState(s.host.world, frames[i]);
         leaver = state.restPoint[1] > cutAt ? frames[i] : leaver;
@@ -323,15 +320,12 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
 {
     enum { SIDE = 8, TICKS = 40 };
     const double size = 0.08;
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     float points[2 * SIDE * SIDE];
-    kiriSheet sheet;
     kiriFrame frames[SIDE * SIDE];
-    int32_t count;
     kiriSheetDef def = DefaultSheet();
     START_HOST(host);
     host.every = 100;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     for (int i = 0; i < SIDE * SIDE; ++i) {
         points[2 * i] = (float)(size * (i % SIDE + 0.5) / SIDE);
         points[2 * i + 1] = (float)(size * (i / SIDE + 0.5) / SIDE);
@@ -340,8 +334,8 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
     def.gridResolution = 48;
     def.frameCount = SIDE * SIDE;
     def.framePoints = points;
-    OK(kiriCreateRectangle(host.world, (float)size, (float)size, 32, 32, &def, &sheet));
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, SIDE * SIDE, &count));
+    kiriSheet sheet = World_AddRectangle(host.world, (float)size, (float)size, 32, 32, &def);
+    int32_t count = World_GetFrames(host.world, sheet, frames, SIDE * SIDE);
     for (int t = 1; t <= TICKS; ++t) {
         for (int i = 0; i < count; ++i) {
             double u = (double)points[2 * i] - 0.5 * size, v = (double)points[2 * i + 1] - 0.5 * size;

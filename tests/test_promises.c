@@ -98,9 +98,7 @@ TEST(WhileWorkWaits)
             Host_Pin(&host, sheet, u, v, u, v, 0.0f);
         }
         OK(kiriWorld_SetBudget(host.world, &none));
-        for (int tick = 0; tick < 60; ++tick) {
-            OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
-        }
+        World_Ticks(host.world, 60, 1.0f / 60.0f, 1);
         assert_int_equal(CheckWeights(&host, sheet), 400);
         CheckPins(&host, sheet);
         for (int corner = 0; corner < 4; ++corner) {
@@ -145,9 +143,8 @@ TEST(LoopOverEvents)
         OK(kiriWorld_GetEvents(host.world, &events, &count));
         for (int32_t i = 0; i < count; ++i) {
             if (events[i].type == KIRI_EVENT_PIECE_OFF) {
-                kiriSheet detached;
                 assert_int_equal(events[i].sheet, sheet);
-                OK(kiriFrame_DetachPiece(host.world, events[i].frame, &detached));
+                kiriSheet detached = World_Detach(host.world, events[i].frame);
                 assert_float_equal(Host_Totals(&host, detached).area, events[i].area, 1e-7);
                 area -= events[i].area;
                 ++off;
@@ -311,10 +308,9 @@ TEST(IdsComeOnce)
     kiriDefaultPinDef(&pin);
     kiriSheet sheet;
     for (int i = 0; i < SHEETS; ++i) {
-        int32_t count;
         OK(kiriCreateSheet(host.world, &def, &sheet));
         OK(kiriBeginCut(host.world, sheet, pin.restPoint, &ids[all]));
-        OK(kiriSheet_GetFrames(host.world, sheet, &ids[all + 1], 1, &count));
+        World_GetFrames(host.world, sheet, &ids[all + 1], 1);
         ids[all + 2] = sheet;
         all += 3;
         if (i < SHEETS - 1) {

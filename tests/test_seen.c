@@ -14,7 +14,6 @@ typedef struct Way {
 
 static kiriSheet Dice(Host* host, const Way* way)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriBudget budget = { .triangles = 60, .cells = 400, .samples = 60 };
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = 36;
@@ -28,7 +27,7 @@ static kiriSheet Dice(Host* host, const Way* way)
     def.sleepSpeed = 0.02f;
     def.material.airDamping = 20.0f;
     def.position[0] = way->isFar ? 1000.0f : 0.0f;
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, SQUARES, SQUARES);
     for (int32_t i = 1; i < DICE; ++i) {
         float at = ((float)i + 0.013f) / DICE;
@@ -37,9 +36,7 @@ static kiriSheet Dice(Host* host, const Way* way)
     }
     OK(Host_Tick(host, dt, 1));
     assert_int_equal(Host_Counts(host, sheet).pieces, DICE * DICE);
-    for (int32_t k = 0; k < 40; ++k) {
-        OK(kiriWorld_Tick(host->world, dt, 1));
-    }
+    World_Ticks(host->world, 40, dt, 1);
     if (way->hasBudget) {
         OK(kiriWorld_SetBudget(host->world, &budget));
     }
@@ -145,9 +142,7 @@ TEST(PartsWakeAlone)
         float u = (1.5f + (float)k) / DICE, v = (2.5f + (float)k) / DICE;
         Host_Cut(&host, sheet, (float[]){ u - 0.5f / DICE, v + 0.003f, u + 0.6f / DICE, v + 0.004f }, 2);
     }
-    for (int32_t tick = 0; tick < 45; ++tick) {
-        OK(kiriWorld_Tick(host.world, dt, 1));
-    }
+    World_Ticks(host.world, 45, dt, 1);
     int32_t pieces = Host_Counts(&host, sheet).pieces;
     assert_int_equal(pieces, DICE * DICE + CUTS);
     assert_int_equal(CountAsleep(&host, sheet), pieces);
@@ -248,12 +243,10 @@ TEST(DetailIsHeld)
     enum { FRAMES = 25, MIDDLE = 12 };
     kiriPin pins[2];
     kiriFrame frames[FRAMES];
-    kiriFrameState start;
-    int32_t count;
     START_HOST(host);
     kiriSheet sheet = AddCloth(&host, 2, FRAMES, pins);
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
-    OK(kiriFrame_GetState(host.world, frames[MIDDLE], &start));
+    World_GetFrames(host.world, sheet, frames, FRAMES);
+    kiriFrameState start = World_FrameState(host.world, frames[MIDDLE]);
     OK(kiriFrame_Hold(host.world, frames[MIDDLE], start.position, upright));
     for (int32_t tick = 0; tick < 120; ++tick) {
         const float in = 0.003f * (float)(tick < 100 ? tick : 100);
@@ -264,8 +257,7 @@ TEST(DetailIsHeld)
         OK(Host_Tick(&host, dt, 4));
         for (int k = 0; k < 3; ++k) {
             const float corner[2] = { (float)k, 1.0f }, *to = k < 2 ? corners[k] : start.position;
-            kiriPointState point;
-            OK(kiriSheet_GetPoint(host.world, sheet, k < 2 ? corner : start.restPoint, &point));
+            kiriPointState point = World_PointState(host.world, sheet, k < 2 ? corner : start.restPoint);
             assert_true(fabsf(point.position[0] - to[0]) < 1e-3f && fabsf(point.position[1] - to[1]) < 1e-3f);
             assert_true(fabsf(point.position[2] - to[2]) < 1e-3f);
         }
@@ -280,7 +272,6 @@ TEST(DetailOnBall)
     kiriMesh mesh[2];
     int32_t awake = 1;
     for (int32_t i = 0; i < 2; ++i) {
-        kiriObstacle ball;
         Host_Start(&hosts[i]);
         sheet[i] = AddCloth(&hosts[i], 2 * i, 25, NULL);
         kiriObstacleDef def = DefaultObstacle();
@@ -288,7 +279,7 @@ TEST(DetailOnBall)
         def.radius = 0.3f;
         def.position[0] = def.position[1] = 0.5f;
         def.position[2] = -0.31f;
-        OK(kiriCreateObstacle(hosts[i].world, &def, &ball));
+        kiriObstacle ball = World_AddObstacle(hosts[i].world, &def);
         def.type = KIRI_OBSTACLE_PLANE;
         def.position[2] = -0.62f;
         OK(kiriCreateObstacle(hosts[i].world, &def, &ball));

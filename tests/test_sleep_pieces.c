@@ -39,9 +39,8 @@ static void SleepAll(Host* host, kiriSheet sheet)
 static int32_t StripAt(const Host* host, kiriSheet sheet, int strip)
 {
     const float rest[2] = { ((float)strip + 0.55f) / STRIPS, 0.48f };
-    int32_t piece;
     kiriPointState point = World_PointState(host->world, sheet, rest);
-    OK(kiriFrame_GetPiece(host->world, point.frame, &piece));
+    int32_t piece = World_PieceOf(host->world, point.frame);
     return piece;
 }
 
@@ -70,8 +69,7 @@ static kiriSheetDef StripsDef(void)
 /* A square in four strips, of two frames and more each, without gravity. */
 static kiriSheet AddFineStrips(Host* host, kiriSheetDef* def, int32_t squares)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
-    OK(kiriWorld_SetGravity(host->world, none));
+    World_StopGravity(host->world);
     kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, squares, squares);
     for (int i = 1; i < STRIPS; ++i) {
         float u = (float)i / STRIPS + 0.011f;
@@ -149,14 +147,13 @@ TEST(OneByOne)
 TEST(Work)
 {
     kiriSheetDef def = StripsDef();
-    kiriProfile profile;
     def.gridResolution = 40;
     def.frameCount = 200;
     def.maxFrames = 400;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
     Tick(&host);
-    OK(kiriWorld_GetProfile(host.world, &profile));
+    kiriProfile profile = World_Profile(host.world);
     int32_t all = profile.solverIterations;
     SleepAll(&host, sheet);
     Throw(&host, sheet, 2, 0.1f);
@@ -381,7 +378,6 @@ TEST(CutWakesItsPiece)
 
 static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
 {
-    kiriObstacle ball;
     kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.03f;
@@ -389,7 +385,7 @@ static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
     def.position[1] = v;
     def.position[2] = z;
     def.velocity[2] = up;
-    OK(kiriCreateObstacle(host->world, &def, &ball));
+    kiriObstacle ball = World_AddObstacle(host->world, &def);
     return ball;
 }
 
@@ -524,7 +520,6 @@ TEST(WhatSleepersPressWith)
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     float at[3] = { 0.5f, 0.5f, -0.1f };
     kiriSheetDef def = StripsDef();
-    kiriObstacle table;
     kiriObstacleState is[3];
     def.position[2] = 0.001f;
     START_HOST(host);
@@ -534,7 +529,7 @@ TEST(WhatSleepersPressWith)
     tableDef.size[0] = tableDef.size[1] = 3.0f;
     tableDef.size[2] = 0.2f;
     memcpy(tableDef.position, at, sizeof(at));
-    OK(kiriCreateObstacle(host.world, &tableDef, &table));
+    kiriObstacle table = World_AddObstacle(host.world, &tableDef);
     OK(kiriWorld_SetGravity(host.world, down));
     SleepAll(&host, sheet);
     for (int k = 0; k < 3; ++k) {
@@ -566,7 +561,6 @@ TEST(PiecesThatTouch)
         int ticks;
     } ways[] = { { { 0.0f, 0.0f, 0.6f }, 6 }, { { 1.0f, 0.0f, 0.0f }, 15 }, { { 0.0f, 0.0f, 0.0f }, 1 } };
     kiriSheetDef def = StripsDef();
-    kiriObstacle floor;
     def.material.airDamping = 0.5f;
     def.touchesSheets = 1;
     def.contactThickness = 0.01f;
@@ -575,7 +569,7 @@ TEST(PiecesThatTouch)
     kiriSheet sheet = AddStrips(&host, &def);
     kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    World_AddObstacle(host.world, &floorDef);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {
         for (int k = 0; k < ways[i].ticks; ++k) {
             OK(kiriFrame_SetPieceVelocity(host.world, FrameAt(&host, sheet, 0), ways[i].velocity, none));
@@ -611,11 +605,10 @@ TEST(DetachAsleep)
 {
     HOST(host);
     kiriSheet sheet = StartStrips(&host), part;
-    int32_t awake;
     SleepAll(&host, sheet);
     Throw(&host, sheet, 0, 0.5f);
     OK(kiriFrame_DetachPiece(host.world, FrameAt(&host, sheet, 2), &part));
-    OK(kiriSheet_IsAwake(host.world, part, &awake));
+    int32_t awake = World_IsAwake(host.world, part);
     assert_false(awake);
     assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 0));
     OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 0)));

@@ -36,7 +36,6 @@ static void NothingToFinish(void* user, void* handle)
 
 static void HangBanner(Game* game, int i)
 {
-    kiriPin pin;
     kiriSheetDef def = DefaultSheet();
     kiriGetMaterial(i % 2 == 0 ? KIRI_MATERIAL_PAPER : KIRI_MATERIAL_COTTON, &def.material);
     def.material.airDamping = 2.0f;
@@ -52,7 +51,7 @@ static void HangBanner(Game* game, int i)
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     game->banners[i] = Host_AddRectangle(&game->host, &def, 0.3f, 0.5f, 4, 6);
-    OK(kiriSheet_HingeLine(game->host.world, game->banners[i], (float[]){ 0.0f, 0.5f }, (float[]){ 0.3f, 0.5f }, &pin));
+    World_Hinge(game->host.world, game->banners[i], (float[]){ 0.0f, 0.5f }, (float[]){ 0.3f, 0.5f });
 }
 
 static void AddObstacles(Game* game)

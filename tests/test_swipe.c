@@ -46,7 +46,6 @@ static void Tick(Curtain* curtain)
 /* In the plane of x and z, 1 m wide and high, pinned along its upper border. A still one has no weight. */
 static void Start(Curtain* curtain, int32_t motion, uint32_t seed)
 {
-    static const float noGravity[3] = { 0.0f, 0.0f, 0.0f };
     static const int32_t squares[4] = { 16, 24, 32, 40 };
     memset(curtain, 0, sizeof(*curtain));
     curtain->seed = 2654435761u * seed + 77u;
@@ -56,7 +55,7 @@ static void Start(Curtain* curtain, int32_t motion, uint32_t seed)
     Host_Start(&curtain->host);
     curtain->host.every = 1000;
     if (motion == STILL) {
-        OK(kiriWorld_SetGravity(curtain->host.world, noGravity));
+        World_StopGravity(curtain->host.world);
     }
     kiriSheetDef def = DefaultSheet();
     int32_t grid = squares[(Random(&curtain->seed) >> 8) % 4];
@@ -73,8 +72,7 @@ static void Start(Curtain* curtain, int32_t motion, uint32_t seed)
         const float none[3] = { 0.0f, 0.0f, 0.0f };
         const float push[3] = { (float)Uniform(curtain, -0.05, 0.05), (float)Uniform(curtain, -0.3, 0.3), 0.0f };
         kiriFrame frames[64];
-        int32_t count;
-        OK(kiriSheet_GetFrames(curtain->host.world, curtain->sheet, frames, 64, &count));
+        int32_t count = World_GetFrames(curtain->host.world, curtain->sheet, frames, 64);
         for (int32_t i = 0; i < 10; ++i) {
             OK(kiriFrame_ApplyForce(curtain->host.world, frames[0], push, none));
             OK(kiriFrame_ApplyForce(curtain->host.world, frames[count / 2], push, none));

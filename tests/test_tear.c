@@ -44,8 +44,7 @@ static void TakeMaterial(kiriMaterial* material, double young, float poisson)
 static void CutLine(const Host* host, kiriSheet sheet, float u0, float v0, float u1, float v1)
 {
     const float from[2] = { u0, v0 }, to[2] = { u1, v1 };
-    kiriCut cut;
-    OK(kiriBeginCut(host->world, sheet, from, &cut));
+    kiriCut cut = World_BeginCut(host->world, sheet, from);
     OK(kiriCut_Extend(host->world, cut, to, 1));
     OK(kiriCut_End(host->world, cut));
 }
@@ -54,8 +53,7 @@ static void CutLine(const Host* host, kiriSheet sheet, float u0, float v0, float
    same rest position. */
 static void FarthestLip(const Host* host, kiriSheet sheet, double u, double v, double at[2])
 {
-    kiriMesh mesh;
-    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    kiriMesh mesh = World_Mesh(host->world, sheet);
     double most = -1e9;
     for (int32_t i = 0; i < mesh.vertexCount; ++i) {
         const float* p = &mesh.restPositions[2 * i];
@@ -86,12 +84,11 @@ typedef struct Strip {
 static void Strip_Start(Strip* s, int32_t frames, int32_t grid)
 {
     const float ends[2][2][2] = { { { 0.0f, 0.0f }, { 0.1f, 0.0f } }, { { 0.0f, 0.2f }, { 0.1f, 0.2f } } };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = DefaultSheet();
     memset(s, 0, sizeof(*s));
     Host_Start(&s->host);
     s->host.every = 20;
-    OK(kiriWorld_SetGravity(s->host.world, none));
+    World_StopGravity(s->host.world);
     TakeMaterial(&def.material, 2e7, 0.0f);
     def.gridResolution = grid;
     def.frameCount = frames;
@@ -240,20 +237,18 @@ TEST(TearTakesItsEnergy)
     static const int32_t frames[] = { 32, 64, 100 };
     for (int k = 0; k < 3; ++k) {
         START_HOST(host);
-        const float none[3] = { 0.0f, 0.0f, 0.0f };
         kiriSheetDef def = DefaultSheet();
         kiriTearing tearing = TearingOf(100.0);
         kiriTotals totals;
-        kiriSheet sheet;
         kiriPin pins[2];
         double tip[2] = { 0.0, 0.0 }, work = 0.0, lost = 0.0, first = 0.0, force[3], torque[3];
-        OK(kiriWorld_SetGravity(host.world, none));
+        World_StopGravity(host.world);
         TakeMaterial(&def.material, 2e7, 0.0f);
         def.gridResolution = 64;
         def.frameCount = frames[k];
         def.planar = 1;
         def.sleepSpeed = 0.0f;
-        OK(kiriCreateRectangle(host.world, 0.1f, 0.1f, 32, 32, &def, &sheet));
+        kiriSheet sheet = World_AddRectangle(host.world, 0.1f, 0.1f, 32, 32, &def);
         OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
         CutLine(&host, sheet, -0.01f, 0.05f, 0.04f, 0.05f);
         for (int side = 0; side < 2; ++side) {
@@ -297,11 +292,10 @@ typedef struct Trouser {
 
 static void Trouser_Start(Trouser* t, kiriWorld* world, double young, int32_t frames, double toughness)
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f }, from[2] = { -0.01f, 0.03f }, to[2] = { 0.05f, 0.03f };
+    const float from[2] = { -0.01f, 0.03f }, to[2] = { 0.05f, 0.03f };
     kiriSheetDef def = DefaultSheet();
-    kiriCut cut;
     memset(t, 0, sizeof(*t));
-    OK(kiriWorld_SetGravity(world, none));
+    World_StopGravity(world);
     TakeMaterial(&def.material, young, 0.3f);
     def.gridResolution = 64;
     def.frameCount = frames;
@@ -310,7 +304,7 @@ static void Trouser_Start(Trouser* t, kiriWorld* world, double young, int32_t fr
     OK(kiriCreateRectangle(world, 0.12f, 0.06f, 48, 24, &def, &t->sheet));
     kiriTearing tearing = TearingOf(toughness);
     OK(kiriSheet_SetTearing(world, t->sheet, &tearing));
-    OK(kiriBeginCut(world, t->sheet, from, &cut));
+    kiriCut cut = World_BeginCut(world, t->sheet, from);
     OK(kiriCut_Extend(world, cut, to, 1));
     OK(kiriCut_End(world, cut));
     OK(kiriWorld_Tick(world, Dt, 2));
@@ -497,10 +491,9 @@ TEST(TearsEndInSheetsThatSleep)
     START_HOST(host);
     Trouser t;
     Told told = { 0 };
-    kiriSheetSettings settings;
     int32_t awake = 1;
     PlayTo(&t, host.world, BEFORE);
-    OK(kiriSheet_GetSettings(host.world, t.sheet, &settings));
+    kiriSheetSettings settings = World_Settings(host.world, t.sheet);
     settings.sleepSpeed = 100.0f;
     OK(kiriSheet_SetSettings(host.world, t.sheet, &settings));
     for (int32_t n = 0; n < 90; ++n) {

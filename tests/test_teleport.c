@@ -150,9 +150,7 @@ static void CheckTeleport(int kind, int order, int model, int skinning, int32_t 
     Scene scenes[2];
     for (int k = 0; k < 2; ++k) {
         Start(&scenes[k], kind, model, skinning);
-        for (int32_t tick = 0; tick < ticks; ++tick) {
-            OK(kiriWorld_Tick(scenes[k].host.world, 1.0f / 60.0f, 1));
-        }
+        World_Ticks(scenes[k].host.world, ticks, 1.0f / 60.0f, 1);
     }
     kiriTotals totals = Host_Totals(&scenes[0].host, scenes[0].sheet);
     double scale = 9.81 * totals.mass, lifted = scale * motion.way[2];
@@ -275,7 +273,6 @@ enum { TOUCHES = 1, SMOOTH = 2, AFFINE = 4, SLEEPS = 8, PLANAR = 16 };
 
 static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
 {
-    kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = 12;
     def.frameCount = 6;
@@ -286,26 +283,23 @@ static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
     def.planar = (how & PLANAR) != 0;
     def.sleepSpeed = (how & SLEEPS) != 0 ? 0.5f : 0.0f;
     From(all, x, y, z, def.position);
-    OK(kiriCreateRectangle(all->host.world, 1.0f, 1.0f, 10, 10, &def, &sheet));
+    kiriSheet sheet = World_AddRectangle(all->host.world, 1.0f, 1.0f, 10, 10, &def);
     return sheet;
 }
 
 static void PinTo(Everything* all, kiriSheet sheet, float u, float v, float x, float y, float z, kiriObstacle obstacle)
 {
     kiriPinDef def;
-    kiriPin pin;
     kiriDefaultPinDef(&def);
     def.restPoint[0] = u;
     def.restPoint[1] = v;
     def.obstacle = obstacle;
     From(all, x, y, z, def.target);
-    OK(kiriCreatePin(all->host.world, sheet, &def, &pin));
+    World_AddPin(all->host.world, sheet, &def);
 }
 
 static void StartEverything(Everything* all)
 {
-    kiriPin pin;
-    kiriFrameState state;
     const kiriBudget budget = { 100, 1200, 400, 0 };
     memset(all, 0, sizeof(*all));
     Host_Start(&all->host);
@@ -321,9 +315,9 @@ static void StartEverything(Everything* all)
     PinTo(all, all->sheets[2], 0.0f, 0.0f, 3.0f, 0.0f, 1.0f, 0);
     PinTo(all, all->sheets[2], 1.0f, 0.0f, 4.0f, 0.0f, 1.0f, 0);
     PinTo(all, all->sheets[0], 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, all->ball);
-    OK(kiriSheet_ClampLine(world, all->sheets[4], (float[]){ 0.0f, 0.0f }, (float[]){ 0.0f, 1.0f }, &pin));
+    World_Clamp(world, all->sheets[4], (float[]){ 0.0f, 0.0f }, (float[]){ 0.0f, 1.0f });
     all->held = Host_FrameOf(&all->host, all->sheets[1], 0);
-    OK(kiriFrame_GetState(world, all->held, &state));
+    kiriFrameState state = World_FrameState(world, all->held);
     OK(kiriFrame_Hold(world, all->held, state.position, state.rotation));
     OK(kiriBeginBlade(world, all->sheets[2], &all->blade));
     OK(kiriWorld_SetBudget(world, &budget));
@@ -373,9 +367,8 @@ static void CompareEverything(const Everything* a, const Everything* b, int32_t 
             most = apart > most ? apart : most;
         }
         double energy = fabs(one.elasticEnergy + one.kineticEnergy - other.elasticEnergy - other.kineticEnergy);
-        int32_t awake, otherAwake;
-        OK(kiriSheet_IsAwake(a->host.world, id, &awake));
-        OK(kiriSheet_IsAwake(b->host.world, id, &otherAwake));
+        int32_t awake = World_IsAwake(a->host.world, id);
+        int32_t otherAwake = World_IsAwake(b->host.world, id);
         if (most > 1e-4 || energy > 1e-4 * scale || awake != otherAwake) {
             fail_msg("tick %d, sheet %d: %g m, %g J of %g, awake %d and %d", (int)tick, (int)s, most, energy, scale,
                      (int)awake, (int)otherAwake);
@@ -413,12 +406,11 @@ TEST(Origin)
         pending += tick >= SHIFT_AT && results[0] == KIRI_PENDING;
         CompareEverything(&worlds[0], &worlds[1], tick);
         kiriObstacleState states[2];
-        int32_t awake;
         for (int k = 0; k < 2; ++k) {
             OK(kiriObstacle_GetState(worlds[k].host.world, worlds[k].ball, &states[k]));
         }
         contacts += tick == SHIFT_AT ? states[0].contacts : 0;
-        OK(kiriSheet_IsAwake(worlds[0].host.world, worlds[0].sheets[3], &awake));
+        int32_t awake = World_IsAwake(worlds[0].host.world, worlds[0].sheets[3]);
         slept += tick == SHIFT_AT && !awake;
     }
     assert_true(pending > 3 && contacts > 0 && slept == 1); /* all of it was going on */

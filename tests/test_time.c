@@ -78,7 +78,6 @@ static double BendingStiffness(const StripDef* d)
 static double TipAngle(const StripDef* d, double angle, double hertz, double seconds)
 {
     Strip s;
-    kiriFrameState tip;
     Strip_Start(&s, d, None);
     float moment = (float)(angle * BendingStiffness(d)), torque[3] = { 0.0f, 0.0f, 0.0f };
     torque[d->planar ? 2 : 1] = d->planar ? moment : -moment;
@@ -86,7 +85,7 @@ static double TipAngle(const StripDef* d, double angle, double hertz, double sec
         OK(kiriFrame_ApplyForce(s.host.world, s.frames[d->frames - 1], None, torque));
         OK(Host_Tick(&s.host, (float)(1.0 / hertz), 1));
     }
-    OK(kiriFrame_GetState(s.host.world, s.frames[d->frames - 1], &tip));
+    kiriFrameState tip = World_FrameState(s.host.world, s.frames[d->frames - 1]);
     Host_Stop(&s.host);
     return atan2(tip.rotation[d->planar ? 1 : 2], tip.rotation[0]);
 }

@@ -141,7 +141,6 @@ static void Start(Touching* t, int layout, int way, uint32_t seed)
 
 static void Look(Touching* t, int tick)
 {
-    kiriProfile profile;
     kiriTotals totals = Host_Totals(&t->host, t->sheet);
     double fall = t->way == HANGING ? totals.center[1] : t->way == RESTING ? 0.0 : totals.center[2];
     double energy = totals.kineticEnergy + totals.mass * g * fall + totals.elasticEnergy;
@@ -156,7 +155,7 @@ static void Look(Touching* t, int tick)
         }
         t->fastest = sqrt(squared) / piece.mass > t->fastest ? sqrt(squared) / piece.mass : t->fastest;
     }
-    OK(kiriWorld_GetProfile(t->host.world, &profile));
+    kiriProfile profile = World_Profile(t->host.world);
     t->nears = profile.sheetPairs > t->nears ? profile.sheetPairs : t->nears;
     t->contacts = profile.contacts > t->contacts ? profile.contacts : t->contacts;
 }
@@ -209,13 +208,12 @@ TEST(EnergyNeverRises)
 TEST(SideBySideRests)
 {
     enum { SIDE = 16 };
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     Touching t;
     memset(&t, 0, sizeof(t));
     Host_Start(&t.host);
     t.host.every = 20;
     t.way = RESTING;
-    OK(kiriWorld_SetGravity(t.host.world, none));
+    World_StopGravity(t.host.world);
     kiriSheetDef def = DefaultSheet();
     def.touchesSheets = 1;
     t.sheet = Host_AddRectangle(&t.host, &def, (float)size, (float)size, 48, 48);
@@ -242,7 +240,7 @@ static void Meet(double off, double width, bool isUpwards)
     double first = 0.0, due = 0.0;
     START_HOST(host);
     host.every = 20;
-    OK(kiriWorld_SetGravity(host.world, none));
+    World_StopGravity(host.world);
     for (int i = 0; i < 2; ++i) {
         kiriSheetDef def = DefaultSheet();
         kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material);

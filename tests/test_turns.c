@@ -37,7 +37,7 @@ static void Limit(Host* host, int32_t systems)
 static kiriSheet StartDice(Host* host, int32_t systems)
 {
     Host_Start(host);
-    OK(kiriWorld_SetGravity(host->world, (const float[3]){ 0.0f, 0.0f, 0.0f }));
+    World_StopGravity(host->world);
     kiriSheet sheet = AddSheet(host, (const float[3]){ 0.0f, 0.0f, 0.0f }, KIRI_SKINNING_LINEAR, 1, 14);
     CutDice(host, sheet);
     OK(Host_Tick(host, dt, 2));
@@ -47,8 +47,7 @@ static kiriSheet StartDice(Host* host, int32_t systems)
 
 static int32_t GetFrames(const Host* host, kiriSheet sheet, kiriFrame* frames, kiriFrameState* states)
 {
-    int32_t count;
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST, &count));
+    int32_t count = World_GetFrames(host->world, sheet, frames, MOST);
     assert_true(count <= MOST);
     for (int32_t i = 0; i < count; ++i) {
         OK(kiriFrame_GetState(host->world, frames[i], &states[i]));

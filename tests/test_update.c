@@ -232,11 +232,10 @@ static int32_t Settle(Host* host, const kiriBudget* budget)
 
 static void StartPair(Host hosts[2], const kiriBudget* budget)
 {
-    const float still[3] = { 0.0f, 0.0f, 0.0f };
     for (int k = 0; k < 2; ++k) {
         Host_Start(&hosts[k]);
         hosts[k].every = 8;
-        OK(kiriWorld_SetGravity(hosts[k].world, still));
+        World_StopGravity(hosts[k].world);
     }
     OK(kiriWorld_SetBudget(hosts[1].world, budget));
 }

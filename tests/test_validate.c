@@ -25,9 +25,7 @@ static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
     enum { COUNT = 25 };
     float circle[2 * COUNT];
     const float slit[4] = { 0.1f, 0.1f, 0.9f, 0.17f }, next[2] = { 0.95f, 0.3f };
-    kiriCut cut;
     kiriPinDef pinDef;
-    kiriPin pin;
     Host_Start(host);
     kiriSheetDef def = Host_SmallDef();
     def.model = model;
@@ -36,14 +34,14 @@ static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 7, 7);
     kiriDefaultPinDef(&pinDef);
     pinDef.restPoint[0] = pinDef.restPoint[1] = 0.93f;
-    OK(kiriCreatePin(host->world, sheet, &pinDef, &pin));
+    World_AddPin(host->world, sheet, &pinDef);
     for (int i = 0; i < COUNT; ++i) {
         circle[2 * i] = 0.5f + 0.2f * (float)cos(i % (COUNT - 1) * 0.2617993878);
         circle[2 * i + 1] = 0.5f + 0.2f * (float)sin(i % (COUNT - 1) * 0.2617993878);
     }
     Host_Cut(host, sheet, circle, COUNT);
     OK(Host_Tick(host, 0.01f, 1));
-    OK(kiriBeginCut(host->world, sheet, slit, &cut));
+    kiriCut cut = World_BeginCut(host->world, sheet, slit);
     OK(kiriCut_Extend(host->world, cut, slit + 2, 1));
     OK(Host_Tick(host, 0.01f, 1));
     OK(kiriCut_Extend(host->world, cut, next, 1));

@@ -31,12 +31,11 @@ static double WeightOf(const Weights* w, kiriFrame frame)
 static kiriSheet AddSheet(Host* host, kiriSheetDef* def, const float* points, int32_t count, double width,
                           double height, kiriFrame* frames)
 {
-    int32_t has;
     def->framePoints = points;
     def->frameCount = def->maxFrames = count;
     def->paper.linearWeights = 1;
     kiriSheet sheet = Host_AddRectangle(host, def, (float)width, (float)height, 20, 20);
-    OK(kiriSheet_GetFrames(host->world, sheet, frames, count, &has));
+    int32_t has = World_GetFrames(host->world, sheet, frames, count);
     assert_int_equal(has, count);
     return sheet;
 }
@@ -209,7 +208,6 @@ TEST(SurfaceIsTheBlend)
     int32_t checked = 0, all = 0;
     for (uint32_t seed = 1; seed <= 8; ++seed) {
         uint32_t random = 2654435761u * seed;
-        kiriPin pin;
         START_HOST(host);
         kiriSheetDef def = DefaultSheet();
         def.gridResolution = 12;
@@ -218,7 +216,7 @@ TEST(SurfaceIsTheBlend)
         def.fadeTime = 0.0f;
         def.material.detail = 0;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 13, 13);
-        OK(kiriSheet_ClampLine(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f }, &pin));
+        World_Clamp(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f });
         for (int tick = 0; tick < 20; ++tick) {
             if (tick % 4 == 0) {
                 CutAtRandom(&host, sheet, &random);
@@ -260,13 +258,12 @@ TEST(FramesAreSpread)
     static const int32_t counts[5] = { 1, 2, 5, 16, 47 };
     for (int k = 0; k < 5; ++k) {
         kiriFrame frames[MOST];
-        int32_t count;
         START_HOST(host);
         kiriSheetDef def = DefaultSheet();
         def.gridResolution = 48;
         def.frameCount = counts[k];
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.7f, 8, 8);
-        OK(kiriSheet_GetFrames(host.world, sheet, frames, MOST, &count));
+        int32_t count = World_GetFrames(host.world, sheet, frames, MOST);
         assert_int_equal(count, counts[k]);
         for (int32_t i = 0; i < count; ++i) {
             kiriFrameState f = World_FrameState(host.world, frames[i]);
