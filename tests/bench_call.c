@@ -125,10 +125,9 @@ static void DrawDefault(Stage* stage)
 static bool Start(Stage* stage)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriPinDef pin;
     int32_t count;
     kiriSheetDef def = DefaultSheet();
-    kiriDefaultPinDef(&pin);
+    kiriPinDef pin = DefaultPin();
     kiriDefaultDebugDraw(&stage->draw);
     stage->draw.points = stage->draw.lines = Count;
     stage->draw.user = stage;

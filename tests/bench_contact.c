@@ -34,13 +34,10 @@ static bool AddBoxes(kiriWorld* world, const Case* c)
     }
     for (int32_t i = 0; fine && i < c->obstacles; i++) {
         kiriObstacle obstacle;
-        kiriObstacleDef def = DefaultObstacle();
-        def.type = KIRI_OBSTACLE_BOX;
+        kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_BOX);
         def.size[0] = def.size[1] = 0.06f;
         def.size[2] = 0.1f;
-        def.position[0] = 0.05f + c->apart * (float)(i % side);
-        def.position[1] = 0.05f + c->apart * (float)(i / side);
-        def.position[2] = -0.05f;
+        Set3(def.position, 0.05f + c->apart * (float)(i % side), 0.05f + c->apart * (float)(i / side), -0.05f);
         fine = kiriCreateObstacle(world, &def, &obstacle) == KIRI_OK;
     }
     return fine;
@@ -49,8 +46,7 @@ static bool AddBoxes(kiriWorld* world, const Case* c)
 static bool AddObstacles(kiriWorld* world, const Case* c)
 {
     kiriObstacle obstacle;
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
     return c->isBare || (c->obstacles > 0 ? AddBoxes(world, c) : kiriCreateObstacle(world, &def, &obstacle) == KIRI_OK);
 }
 

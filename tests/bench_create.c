@@ -117,9 +117,7 @@ static bool MakeFrames(int32_t squares, int32_t grid, int32_t frames, bool isMos
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriCounts counts = { .frames = 0 };
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = grid;
-    def.frameCount = frames;
+    kiriSheetDef def = SheetOf(grid, frames);
     def.maxFrames = isMost ? frames : def.maxFrames;
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK;
     double start = Bench_Clock(NULL);

@@ -98,8 +98,7 @@ typedef struct Cost {
 
 static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def))
 {
-    kiriWorldDef worldDef;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     worldDef.alloc = CountAlloc;
     worldDef.free = CountFree;
     kiriSheetDef def = DefaultSheet();

@@ -20,9 +20,7 @@ static bool Bed_Start(Bed* bed, int32_t squares, int32_t resolution, int32_t acr
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = resolution;
-    def.frameCount = 4;
+    kiriSheetDef def = SheetOf(resolution, 4);
     def.maxFrames = 100000;
     def.rigidArea = 1.0f;
     def.sleepSpeed = 0.0f;

@@ -39,8 +39,7 @@ static bool Bed_Start(Bed* bed, const Case* c, float sleepSpeed, int32_t dice)
     kiriObstacle floor;
     kiriPointState at;
     kiriSheetDef def = DefaultSheet();
-    kiriObstacleDef floorDef = DefaultObstacle();
-    floorDef.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
     def.gridResolution = c->resolution;
     def.frameCount = 1;
     def.maxFrames = 100000;

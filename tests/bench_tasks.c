@@ -38,8 +38,7 @@ static bool Build(kiriWorld* world, const Row* row)
     kiriSheetDef def;
     kiriObstacle obstacle;
     bool fine = true;
-    kiriObstacleDef floor = DefaultObstacle();
-    floor.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floor = ObstacleOf(KIRI_OBSTACLE_PLANE);
     floor.position[2] = row->sheets > 1 ? 0.0f : -1000.0f;
     fine = kiriCreateObstacle(world, &floor, &obstacle) == KIRI_OK;
     for (int32_t i = 0; fine && i < row->sheets; i++) {
@@ -68,9 +67,8 @@ static double WallClock(void)
 static bool Run(const Row* row, int32_t workers, double* seconds, uint64_t* hash)
 {
     Crew crew;
-    kiriWorldDef def;
     SCOPED_WORLD(world) = NULL;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.startTask = workers > 0 ? StartTask : NULL;
     def.finishTask = workers > 0 ? FinishTask : NULL;
     def.workerCount = workers;

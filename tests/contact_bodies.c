@@ -36,8 +36,7 @@ static kiriSheet AddCloth(kiriWorld* world, const Case* c)
     def.position[0] = def.position[1] = -0.5f;
     kiriCreateRectangle(world, 1.0f, 1.0f, CELLS, CELLS, &def, &sheet);
     for (int i = 0; i < 4; ++i) {
-        kiriPinDef corner;
-        kiriDefaultPinDef(&corner);
+        kiriPinDef corner = DefaultPin();
         memcpy(corner.restPoint, corners[i], sizeof(corners[i]));
         corner.target[0] = corners[i][0] - 0.5f;
         corner.target[1] = corners[i][1] - 0.5f;
@@ -141,9 +140,8 @@ static void MeasureFall(const Case* c)
     double deepest = 0.0, gained = 0.0, lowest = 0.0, fastest = 0.0, borne = 0.0, last = HUGE_VAL;
     int isThrough = 0;
     SCOPED_WORLD(world) = NULL;
-    kiriWorldDef def;
     kiriTotals totals;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     kiriCreateWorld(&def, &world);
     kiriSheet sheet = AddCloth(world, c);
     kiriSheet_GetTotals(world, sheet, &totals);

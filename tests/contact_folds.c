@@ -33,7 +33,6 @@ typedef struct FoldCase {
 
 static void AddPin(Fold* fold, float u, float v)
 {
-    kiriPinDef def;
     kiriMesh mesh;
     int32_t best = 0;
     kiriSheet_GetMesh(fold->world, fold->sheet, &mesh);
@@ -42,7 +41,7 @@ static void AddPin(Fold* fold, float u, float v)
         double eu = mesh.restPositions[2 * best] - u, ev = mesh.restPositions[2 * best + 1] - v;
         best = du * du + dv * dv < eu * eu + ev * ev ? i : best;
     }
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     memcpy(def.restPoint, &mesh.restPositions[2 * best], sizeof def.restPoint);
     memcpy(def.target, &mesh.positions[3 * best], sizeof def.target);
     kiriCreatePin(fold->world, fold->sheet, &def, &fold->pins[fold->pinCount++]);
@@ -51,8 +50,7 @@ static void AddPin(Fold* fold, float u, float v)
 static kiriObstacle AddObstacle(Fold* fold, int32_t type, float radius, float height, const float at[3])
 {
     kiriObstacle obstacle = 0;
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
+    kiriObstacleDef def = ObstacleOf(type);
     def.radius = radius;
     def.height = height;
     memcpy(def.position, at, sizeof def.position);
@@ -88,8 +86,7 @@ static void StartHung(Fold* fold)
 static void StartRibbon(Fold* fold)
 {
     const float at[3] = { 0.0f, 0.03f, 1.3f };
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_CYLINDER;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_CYLINDER);
     def.radius = 0.06f;
     def.height = 0.2f;
     memcpy(def.position, at, sizeof at);
@@ -97,13 +94,10 @@ static void StartRibbon(Fold* fold)
     memcpy(def.rotation, along, sizeof along);
     kiriCreateObstacle(fold->world, &def, &fold->wheel);
     for (int i = 0; i < 3; ++i) {
-        kiriPinDef pin;
-        kiriDefaultPinDef(&pin);
+        kiriPinDef pin = DefaultPin();
         pin.restPoint[0] = 0.001f;
         pin.restPoint[1] = 0.001f + 0.029f * (float)i;
-        pin.target[0] = 0.0f;
-        pin.target[1] = pin.restPoint[1];
-        pin.target[2] = 1.3f + 0.061f;
+        Set3(pin.target, 0.0f, pin.restPoint[1], 1.3f + 0.061f);
         pin.obstacle = fold->wheel;
         kiriCreatePin(fold->world, fold->sheet, &pin, &fold->pins[i]);
     }
@@ -127,10 +121,9 @@ static const FoldCase cases[] = {
 
 static void StartFold(Fold* fold, const FoldCase* of, int32_t selfContact)
 {
-    kiriWorldDef worldDef;
     const float at[3] = { 0.0f, 0.0f, 0.0f };
     memset(fold, 0, sizeof *fold);
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     kiriCreateWorld(&worldDef, &fold->world);
     AddObstacle(fold, KIRI_OBSTACLE_PLANE, 0.0f, 0.0f, at);
     kiriSheetDef def = DefaultSheet();

@@ -29,14 +29,12 @@ static double Milliseconds(void)
 
 static void Start(Play* play, float gravity, int32_t obstacle, float radius, float z)
 {
-    kiriWorldDef def;
     kiriObstacle id;
     memset(play, 0, sizeof(*play));
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.gravity[2] = -gravity;
     kiriCreateWorld(&def, &play->world);
-    kiriObstacleDef below = DefaultObstacle();
-    below.type = obstacle;
+    kiriObstacleDef below = ObstacleOf(obstacle);
     below.radius = radius;
     below.position[2] = z;
     kiriCreateObstacle(play->world, &below, &id);
@@ -54,9 +52,7 @@ static void Add(Play* play, kiriSheetDef* def, int32_t material, double size, in
     def->axisU[0] = def->axisV[1] = (float)c;
     def->axisU[1] = (float)s;
     def->axisV[0] = (float)-s;
-    def->position[0] = (float)(at[0] - half * (c - s));
-    def->position[1] = (float)(at[1] - half * (c + s));
-    def->position[2] = (float)at[2];
+    Set3(def->position, (float)(at[0] - half * (c - s)), (float)(at[1] - half * (c + s)), (float)at[2]);
     kiriCreateRectangle(play->world, (float)size, (float)size, cells, cells, def, &play->sheets[play->count++]);
 }
 

@@ -116,8 +116,7 @@ static kiriSheet MakeCloth(kiriWorld* world, float height, int32_t skinning, int
 static Drape StartDrape(const Setting* setting, int32_t skinning)
 {
     Drape drape = { NULL, 0, 0, clothSize / SQUARES };
-    kiriWorldDef worldDef;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     kiriCreateWorld(&worldDef, &drape.world);
     kiriObstacleDef def = DefOf(setting);
     kiriCreateObstacle(drape.world, &def, &drape.obstacle);
@@ -247,16 +246,14 @@ static kiriSheet MakePlate(kiriWorld* world, float velocity)
 /* A ball of so many times its mass meets a cloth that flies at it with 1 m/s. */
 static void MeasureBall(float ratio, int32_t substeps)
 {
-    kiriWorldDef worldDef;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     worldDef.gravity[2] = 0.0f;
     SCOPED_WORLD(world) = NULL;
     kiriCreateWorld(&worldDef, &world);
     kiriSheet sheet = MakePlate(world, -1.0f);
     kiriTotals totals;
     kiriSheet_GetTotals(world, sheet, &totals);
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_SPHERE);
     def.radius = 0.1f;
     def.position[2] = -0.11f;
     def.mass = ratio * (float)totals.mass;
@@ -294,12 +291,10 @@ static void MeasureFast(int isEdgeOn, int32_t substeps)
 {
     static float positions[2 * 33 * 33];
     static int32_t indices[6 * 32 * 32];
-    kiriWorldDef worldDef;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     SCOPED_WORLD(world) = NULL;
     kiriCreateWorld(&worldDef, &world);
-    kiriObstacleDef wall = DefaultObstacle();
-    wall.type = KIRI_OBSTACLE_BOX;
+    kiriObstacleDef wall = ObstacleOf(KIRI_OBSTACLE_BOX);
     wall.size[0] = wall.size[1] = 8.0f;
     wall.size[2] = 0.01f;
     kiriObstacle obstacle;

@@ -54,10 +54,8 @@ static kiriWorld* MakeScene(const Scene* scene, const Setup* setup, kiriSheet* s
 {
     static float positions[2 * (MOST_CELLS + 1) * (MOST_CELLS + 1)];
     static int32_t indices[6 * MOST_CELLS * MOST_CELLS];
-    kiriWorldDef worldDef;
     kiriWorld* world = NULL;
-    kiriSheetDef def;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     kiriCreateWorld(&worldDef, &world);
     for (int32_t i = 0; i < scene->obstacleCount; ++i) {
         kiriObstacle id;
@@ -73,7 +71,7 @@ static kiriWorld* MakeScene(const Scene* scene, const Setup* setup, kiriSheet* s
         }
         kiriCreateObstacle(world, &obstacle, &id);
     }
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle(scene->size, scene->size, setup->cells, setup->cells, positions, indices);
     def.restPositions = positions;
     def.vertexCount = (setup->cells + 1) * (setup->cells + 1);

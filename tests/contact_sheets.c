@@ -18,13 +18,11 @@ static double Seconds(void)
 
 static kiriWorld* StartWorld(void)
 {
-    kiriWorldDef def;
     kiriObstacle floor;
     kiriWorld* world = NULL;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     kiriCreateWorld(&def, &world);
-    kiriObstacleDef floorDef = DefaultObstacle();
-    floorDef.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
     kiriCreateObstacle(world, &floorDef, &floor);
     return world;
 }
@@ -62,9 +60,7 @@ static void StartPile(Pile* pile, int count, int32_t material)
         def.axisU[0] = def.axisV[1] = (float)c;
         def.axisU[1] = (float)s;
         def.axisV[0] = (float)-s;
-        def.position[0] = (float)(-0.1 * (c - s));
-        def.position[1] = (float)(-0.1 * (s + c));
-        def.position[2] = 0.02f * (float)(i + 1);
+        Set3(def.position, (float)(-0.1 * (c - s)), (float)(-0.1 * (s + c)), 0.02f * (float)(i + 1));
         kiriCreateSheet(pile->world, &def, &pile->sheets[i]);
     }
 }
@@ -151,11 +147,10 @@ static void MeasurePile(int count, int32_t material, const char* name)
 /* The area of triangles that cross another piece, cm^2: the most that was seen at every 60th tick. */
 static double OverlapOf(const SceneType* type, int touches)
 {
-    kiriWorldDef def;
     SceneOptions options;
     SCOPED(Scene, scene, Scene_Stop);
     double worst = 0.0;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     memset(&options, 0, sizeof options);
     if (!Scene_Start(&scene, type, &def, &options)) {
         return HUGE_VAL;

@@ -4,10 +4,39 @@
 
 #include "kiri/kiri.h"
 
+static inline kiriWorldDef DefaultWorld(void)
+{
+    kiriWorldDef def;
+    kiriDefaultWorldDef(&def);
+    return def;
+}
+
+static inline kiriPinDef DefaultPin(void)
+{
+    kiriPinDef def;
+    kiriDefaultPinDef(&def);
+    return def;
+}
+
+static inline kiriSeamDef DefaultSeam(void)
+{
+    kiriSeamDef def;
+    kiriDefaultSeamDef(&def);
+    return def;
+}
+
 static inline kiriSheetDef DefaultSheet(void)
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    return def;
+}
+
+static inline kiriSheetDef SheetOf(int32_t gridResolution, int32_t frameCount)
+{
+    kiriSheetDef def = DefaultSheet();
+    def.gridResolution = gridResolution;
+    def.frameCount = frameCount;
     return def;
 }
 
@@ -16,6 +45,20 @@ static inline kiriObstacleDef DefaultObstacle(void)
     kiriObstacleDef def;
     kiriDefaultObstacleDef(&def);
     return def;
+}
+
+static inline kiriObstacleDef ObstacleOf(int32_t type)
+{
+    kiriObstacleDef def = DefaultObstacle();
+    def.type = type;
+    return def;
+}
+
+static inline void Set3(float vector[3], float x, float y, float z)
+{
+    vector[0] = x;
+    vector[1] = y;
+    vector[2] = z;
 }
 
 #endif

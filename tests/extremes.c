@@ -98,8 +98,7 @@ static void LetGo(Trial* trial)
 
 static void PinFrame(Trial* trial, int frame)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     memcpy(def.restPoint, trial->now[frame].restPoint, sizeof(def.restPoint));
     memcpy(def.target, trial->now[frame].position, sizeof(def.target));
     def.stiffness = trial->pinStiffness;
@@ -224,8 +223,7 @@ static void HoldMapped(Trial* trial, kiriVec3 scale, kiriMat3 A)
 
 static kiriMat3 Axes(double u, double v)
 {
-    kiriMat3 A = { { u, 0.0, 0.0 }, { 0.0, v, 0.0 }, { 0.0, 0.0, u * v } };
-    return A;
+    return (kiriMat3){ { u, 0.0, 0.0 }, { 0.0, v, 0.0 }, { 0.0, 0.0, u * v } };
 }
 
 /* Something that is done to a sheet in each tick, in one line. */
@@ -567,8 +565,7 @@ static void Start(Trial* trial, const Extreme* e, bool damped)
     trial->seed = 19650218u;
     trial->outcome.finite = true;
     trial->outcome.recovered = -1;
-    kiriWorldDef worldDef;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     CALL(kiriCreateWorld(&worldDef, &trial->world));
     SetGravity(trial, 0.0);
     kiriSheetDef def = DefOf(e, damped);

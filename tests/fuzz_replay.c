@@ -57,9 +57,8 @@ static void Write(void* user, const void* bytes, int32_t count)
 
 static void Start(FuzzTape* tape)
 {
-    kiriWorldDef def;
     memset(tape, 0, sizeof(*tape));
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.alloc = Allocate;
     def.free = Free;
     def.record = Write;

@@ -35,8 +35,7 @@ static void Free(void* user, void* pointer)
 
 kiriWorldDef SavedHost_Def(SavedHost* host)
 {
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.alloc = Allocate;
     def.free = Free;
     def.user = host;

@@ -14,6 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const float noVector[3] = { 0.0f, 0.0f, 0.0f };
+static const float worldAxes[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+
 typedef struct Host {
     kiriWorld* world;
     int64_t live;    /* blocks that are out */

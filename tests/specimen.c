@@ -58,9 +58,8 @@ static SpecimenMesh Rectangle(const SpecimenDef* def)
 
 static kiriWorld* MakeWorld(void)
 {
-    kiriWorldDef def;
     kiriWorld* world = NULL;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     memset(def.gravity, 0, sizeof def.gravity);
     Require(kiriCreateWorld(&def, &world) == KIRI_OK, "no world");
     return world;

@@ -256,8 +256,7 @@ static void Throw(Storm* storm)
 
 static void AddPin(Storm* storm)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     Storm_AnyRestPoint(storm, def.restPoint);
     kiriSheet sheet = Storm_AnySheet(storm);
     kiriPointState state;
@@ -338,13 +337,12 @@ static void Hold(Storm* storm)
 
 static void ChangeSeams(Storm* storm)
 {
-    kiriSeamDef def;
     kiriStitch stitch;
     float lines[2][4];
     if (Storm_Random(storm, 4) == 0) {
         Storm_Note(storm, kiriDestroySeam(storm->world, storm->seam));
     }
-    kiriDefaultSeamDef(&def);
+    kiriSeamDef def = DefaultSeam();
     for (int k = 0; k < 2; k++) {
         Storm_AnyRestPoint(storm, lines[k]);
         Storm_AnyRestPoint(storm, lines[k] + 2);

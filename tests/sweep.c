@@ -164,9 +164,8 @@ static bool AddSheet(Scene* scene, const Setting* setting)
 
 static bool PinCorner(const Scene* scene, float v)
 {
-    kiriPinDef def;
     kiriPin pin;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     def.restPoint[1] = def.target[1] = v;
     return kiriCreatePin(scene->world, scene->sheet, &def, &pin) == KIRI_OK;
 }
@@ -191,8 +190,7 @@ static bool CutTongue(const Scene* scene)
 
 static bool MakeScene(Scene* scene, const Setting* setting, kiriClockFn* clock, Outcome* outcome)
 {
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.clock = clock;
     if (setting->columns < 1 || setting->columns * setting->rows > MAX_FRAMES ||
         kiriCreateWorld(&def, &scene->world) != KIRI_OK) {

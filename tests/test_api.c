@@ -698,9 +698,8 @@ TEST(DeadIds)
 
 TEST(Nulls)
 {
-    kiriWorldDef def;
     kiriWorld* world;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     kiriDefaultWorldDef(NULL);
     kiriDefaultSheetDef(NULL);
     kiriDefaultPinDef(NULL);
@@ -786,12 +785,11 @@ TEST(OtherRanges)
     static const float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
     kiriHit hit;
     kiriCut cut;
-    static const float zero[3] = { 0.0f, 0.0f, 0.0f };
     kiriDebugDraw draw = *s.given.draw;
     draw.sheet = 12345;
     REFUSED(KIRI_ERROR_ID, kiriWorld_DebugDraw(w, &draw));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, zero, 1.0f, &hit));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriBlade_MoveRay(w, s.given.blade, v, zero, 1.0f));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_Raycast(w, s.given.sheet, v, noVector, 1.0f, &hit));
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriBlade_MoveRay(w, s.given.blade, v, noVector, 1.0f));
     static const int32_t counts[3] = { 0, -1, INT32_MAX };
     for (int i = 0; i < 3; ++i) {
         REFUSED(KIRI_ERROR_ARGUMENT, kiriCut_Extend(w, s.given.cut, v, counts[i]));
@@ -865,16 +863,14 @@ TEST(HugeValues)
         Host* host = &s.tape.host;
         kiriWorld* w = host->world;
         static const float huge[3] = { 1e30f, -1e30f, 1e30f };
-        static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
         static const float blade[12] = { -1e30f, -1e30f, 0.0f, 1e30f,  -1e30f, 0.0f,
                                          1e30f,  1e30f,  0.0f, -1e30f, 1e30f,  1e30f };
         float inside[2] = { 0.5f, 0.5f };
         kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 1e30f, .friction = 1e30f };
-        kiriPinDef pin;
         kiriPin made;
         kiriCut cut;
         kiriHit hit;
-        kiriDefaultPinDef(&pin);
+        kiriPinDef pin = DefaultPin();
         memcpy(pin.target, huge, sizeof(huge));
         pin.stiffness = 1e30f;
         switch (what) {
@@ -891,7 +887,7 @@ TEST(HugeValues)
             OK(kiriFrame_ApplyForce(w, s.given.frame, huge, huge));
             break;
         case 4:
-            OK(kiriFrame_Hold(w, s.given.frame, huge, eye));
+            OK(kiriFrame_Hold(w, s.given.frame, huge, worldAxes));
             break;
         case 5:
             OK(kiriSheet_SetContacts(w, s.given.sheet, &contact, 1));
@@ -991,8 +987,7 @@ TEST(LinesNameArguments)
     const kiriBudget budget = { 0, -7, 0, 0 };
     kiriSheetDef def = Host_SmallDef();
     uint32_t id;
-    kiriObstacleDef sphere = DefaultObstacle();
-    sphere.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef sphere = ObstacleOf(KIRI_OBSTACLE_SPHERE);
 #define SAYS(call, text)                                                                                               \
     do {                                                                                                               \
         assert_true((call) < 0);                                                                                       \

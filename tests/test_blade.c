@@ -9,13 +9,9 @@ typedef struct Stage {
 
 /* ---- Sheets ---- */
 
-static const float stillAir[3] = { 0.0f, 0.0f, 0.0f };
-
 static kiriSheetDef Def(int32_t grid, int32_t frames)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = grid;
-    def.frameCount = frames;
+    kiriSheetDef def = SheetOf(grid, frames);
     def.collisionPoints = 0;
     return def;
 }
@@ -112,11 +108,11 @@ typedef struct Swipe {
 /* Gusts push it to and fro, and lips apart. */
 static void Blow(const Stage* stage, int32_t step)
 {
-    const float force[3] = { 0.0f, step / 3 % 2 == 0 ? -1.5f : 1.5f, 0.3f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float force[3] = { 0.0f, step / 3 % 2 == 0 ? -1.5f : 1.5f, 0.3f };
     kiriFrame frames[64];
     int32_t count = World_GetFrames(stage->host.world, stage->sheet, frames, 64);
-    OK(kiriFrame_ApplyForce(stage->host.world, frames[count / 2], force, none));
-    OK(kiriFrame_ApplyForce(stage->host.world, frames[0], force, none));
+    OK(kiriFrame_ApplyForce(stage->host.world, frames[count / 2], force, noVector));
+    OK(kiriFrame_ApplyForce(stage->host.world, frames[0], force, noVector));
 }
 
 /* The ray of a mouse, seen from 2 m in front of the curtain. */
@@ -185,7 +181,7 @@ TEST(SwipesPart)
    disc came off. */
 static bool IsDiscCut(int k, int32_t held, double radius, double widening)
 {
-    static const float eye[3] = { 0.5f, -2.0f, 0.5f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    static const float eye[3] = { 0.5f, -2.0f, 0.5f };
     SCOPED(Stage, stage, Stage_Stop);
     int32_t steps = 6 + 7 * k, large = 0, count;
     Stage_StartCurtain(&stage, 16 + 2 * k, 20);
@@ -198,7 +194,7 @@ static bool IsDiscCut(int k, int32_t held, double radius, double widening)
         kiriFrame frames[64];
         OK(kiriBlade_MoveRay(stage.host.world, stage.blade, eye, way, 20.0f));
         OK(kiriSheet_GetFrames(stage.host.world, stage.sheet, frames, 64, &count));
-        OK(kiriFrame_ApplyForce(stage.host.world, frames[(t + held) % count], force, none));
+        OK(kiriFrame_ApplyForce(stage.host.world, frames[(t + held) % count], force, noVector));
         Tick(&stage);
     }
     EndAndTick(&stage);
@@ -333,7 +329,6 @@ TEST(TurningEdge)
 /* Folded in half over x = 0.5, the upper layer 0.1 m above the lower. */
 static void StartFolded(Stage* stage)
 {
-    static const float flat[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     static const float turned[9] = { -1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f };
     float points[16];
     kiriFrame frames[8];
@@ -350,7 +345,7 @@ static void StartFolded(Stage* stage)
     assert_int_equal(count, 8);
     for (int k = 0; k < 8; ++k) {
         const float u = points[2 * k], at[3] = { u < 0.5f ? u : 1.0f - u, points[2 * k + 1], u < 0.5f ? 0.0f : 0.1f };
-        OK(kiriFrame_Hold(stage->host.world, frames[k], at, u < 0.5f ? flat : turned));
+        OK(kiriFrame_Hold(stage->host.world, frames[k], at, u < 0.5f ? worldAxes : turned));
     }
     Tick(stage);
 }
@@ -377,12 +372,12 @@ TEST(Fold)
 /* Every frame of a piece gets the same push. */
 static void Push(const Stage* stage, int32_t piece, float y, float z)
 {
-    const float push[3] = { 0.0f, y, z }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float push[3] = { 0.0f, y, z };
     const kiriFrame* frames;
     int32_t count;
     OK(kiriSheet_GetPieceFrames(stage->host.world, stage->sheet, piece, &frames, &count));
     for (int32_t i = 0; i < count; ++i) {
-        OK(kiriFrame_ApplyForce(stage->host.world, frames[i], push, none));
+        OK(kiriFrame_ApplyForce(stage->host.world, frames[i], push, noVector));
     }
 }
 
@@ -577,9 +572,8 @@ TEST(RaysMakeNoDifference)
 TEST(FallingSheets)
 {
     for (int32_t k = 0; k < 120; ++k) {
-        kiriWorldDef worldDef;
         SCOPED_WORLD(world) = NULL;
-        kiriDefaultWorldDef(&worldDef);
+        kiriWorldDef worldDef = DefaultWorld();
         kiriSheetDef sheetDef = DefaultSheet();
         worldDef.gravity[1] = -1.0f - (float)(k % 10);
         sheetDef.frameCount = 1 + k % 7;

@@ -34,9 +34,7 @@ static kiriResult AddShape(Host* host, kiriSheetDef* def, int32_t columns, int32
 
 static kiriSheetDef DefOf(int32_t resolution, double snap)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = resolution;
-    def.frameCount = 2;
+    kiriSheetDef def = SheetOf(resolution, 2);
     def.maxFrames = 512;
     def.snapDistance = (float)snap;
     return def;

@@ -98,8 +98,7 @@ static void Begin(Stage* stage)
     def.collisionPoints = 7;
     stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, 24, 24);
 
-    kiriObstacleDef ball = DefaultObstacle();
-    ball.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef ball = ObstacleOf(KIRI_OBSTACLE_SPHERE);
     ball.radius = 0.25f;
     ball.position[0] = ball.position[1] = 0.5f;
     ball.position[2] = -0.27f;
@@ -289,8 +288,7 @@ TEST(Work)
 static void AddShape(Host* host, int32_t type, float height)
 {
     static const float outline[6] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f };
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
+    kiriObstacleDef def = ObstacleOf(type);
     def.radius = 0.5f;
     def.height = height;
     def.size[0] = def.size[1] = def.size[2] = 1.0f;

@@ -506,8 +506,7 @@ TEST(Pieces)
     }
     ReadAndJoin(strcat(text, "</svg>"));
     START_HOST(host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.snapDistance = 1e-5f;
     kiriSheet sheet = World_AddRectangle(host.world, 0.1f, 0.1f, 20, 20, &def);
     for (int32_t i = 0; i < drawing.lineCount; i++) {

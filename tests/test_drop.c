@@ -20,11 +20,8 @@ typedef struct Fall {
 static void AddObstacle(kiriWorld* world, int32_t type, float z)
 {
     kiriObstacle obstacle;
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
-    def.size[0] = 0.42f;
-    def.size[1] = 0.40f;
-    def.size[2] = 2.0f * z;
+    kiriObstacleDef def = ObstacleOf(type);
+    Set3(def.size, 0.42f, 0.40f, 2.0f * z);
     def.radius = z;
     def.position[0] = type == KIRI_OBSTACLE_PLANE ? 0.0f : 0.1f;
     def.position[2] = z;
@@ -81,9 +78,8 @@ static double GetDiagonal(kiriWorld* world, kiriSheet sheet)
 
 static bool TryFall(const Fall* fall)
 {
-    kiriWorldDef def;
     SCOPED_WORLD(world) = NULL;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
     AddObstacle(world, KIRI_OBSTACLE_PLANE, 0.0f);
     if (fall->obstacle >= 0) {

@@ -173,8 +173,7 @@ TEST(SpinsUpTo)
         def.model = KIRI_MODEL_AFFINE;
         def.skinning = KIRI_SKINNING_SMOOTH;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
-        kiriObstacleDef ball = DefaultObstacle();
-        ball.type = KIRI_OBSTACLE_SPHERE;
+        kiriObstacleDef ball = ObstacleOf(KIRI_OBSTACLE_SPHERE);
         ball.radius = 0.5f;
         ball.position[0] = ball.position[1] = 0.3f;
         ball.position[2] = -0.4f;

@@ -9,8 +9,7 @@ static const float Dt = 1.0f / 60.0f;
 
 static kiriSheetDef StiffDef(void)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material = (kiriMaterial){ 2e9f, 0.3f, 3e-4f, 800.0f, 6.0f, 1e-4f, 0.0f, 0.0f, 0.0f, 0 };
     def.sleepSpeed = 0.0f;
     def.fadeTime = 0.0f;
@@ -30,8 +29,7 @@ static kiriSheet AddFolded(Host* host, kiriSheetDef* def, float width, float hei
 
 static kiriFoldState StateOf(const Host* host, kiriSheet sheet, int32_t index)
 {
-    kiriFoldState state = World_FoldState(host->world, sheet, index);
-    return state;
+    return World_FoldState(host->world, sheet, index);
 }
 
 static void HoldLeftOf(Host* host, kiriSheet sheet, float u)
@@ -225,10 +223,9 @@ TEST(BladesGoThroughFolds)
 TEST(ClothFolds)
 {
     const kiriFold fold = { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 1e-4f, 2.0f, 0.0f };
-    kiriSheetDef def;
     START_HOST(host);
     host.every = 20;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 16;
     kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 20, 20, &fold, 1);
     World_Clamp(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 1.0f });
@@ -598,7 +595,7 @@ static bool SetInTick(int32_t when)
         }
     }
     assert_in_range(tick, 20, 200);
-    Host_Ticks(&host, 60 && tick > when, Dt, 2);
+    Host_Ticks(&host, tick > when ? 60 : 0, Dt, 2);
     for (int f = 0; f < FOLDS && tick > when; ++f) {
         assert_true(fabs(StateOf(&host, sheet, f).angle - 0.3) < 0.03);
     }

@@ -174,7 +174,6 @@ TEST(PointIsWhatIsSeen)
 TEST(PointHasANormal)
 {
     static const float sites[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f };
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     static const float places[4][3] = { { 0.0f }, { 1.0f, 2.0f }, { 0.0f, 1.0f }, { 1.0f, 0.0f } };
     static const float signs[4] = { -1.0f, -1.0f, 1.0f, -1.0f };
     START_HOST(host);
@@ -185,7 +184,7 @@ TEST(PointHasANormal)
     kiriFrame frames[4];
     World_GetFrames(host.world, sheet, frames, 4);
     for (int i = 0; i < 4; ++i) {
-        OK(kiriFrame_Hold(host.world, frames[i], places[i], eye));
+        OK(kiriFrame_Hold(host.world, frames[i], places[i], worldAxes));
     }
     OK(Host_Tick(&host, DT, 1));
     for (int hasNormals = 0; hasNormals < 2; ++hasNormals) {
@@ -196,7 +195,7 @@ TEST(PointHasANormal)
             assert_true(fabs((double)(mesh.normals[3 * v + 2] - signs[v])) < 1e-6);
         }
     }
-    OK(kiriFrame_Hold(host.world, frames[2], places[3], eye)); /* two vertices at one place */
+    OK(kiriFrame_Hold(host.world, frames[2], places[3], worldAxes)); /* two vertices at one place */
     OK(Host_Tick(&host, DT, 1));
     for (int hasNormals = 0; hasNormals < 2; ++hasNormals) {
         kiriPointState point = PointAt(&host, sheet, 0.25f, 0.75f);
@@ -333,8 +332,7 @@ static kiriPin PinTo(Host* host, kiriSheet sheet, kiriObstacle obstacle, float u
     kiriPointState point = PointAt(host, sheet, u, v);
     kiriPinDef def = Host_PinDef(u, v, point.position[0], point.position[1], point.position[2]);
     def.obstacle = obstacle;
-    kiriPin pin = World_AddPin(host->world, sheet, &def);
-    return pin;
+    return World_AddPin(host->world, sheet, &def);
 }
 
 static double ForceOn(const Host* host, kiriPin pin)
@@ -373,10 +371,10 @@ TEST(PinsBreak)
     assert_int_equal(kiriPin_GetState(host.world, pins[1], &pinState), KIRI_ERROR_ID);
     int32_t count = World_GetPins(host.world, sheet, pins, 4);
     assert_int_equal(count, 1);
-    const float pull[3] = { 0.0f, 0.0f, (float)(-10.0 * weight) }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float pull[3] = { 0.0f, 0.0f, (float)(-10.0 * weight) };
     const float at[2] = { 0.5f, 0.5f };
     for (int i = 0; i < 20 && count > 0; ++i) {
-        OK(kiriSheet_ApplyForce(host.world, sheet, at, pull, none));
+        OK(kiriSheet_ApplyForce(host.world, sheet, at, pull, noVector));
         OK(Host_Tick(&host, DT, 2));
         OK(kiriSheet_GetPins(host.world, sheet, pins, 4, &count));
     }
@@ -418,7 +416,6 @@ TEST(HeldFrameMovesEvenly)
 {
     kiriSheetDef def = Host_SmallDef();
     kiriFrame frames[8];
-    const float rotation[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     World_GetFrames(host.world, sheet, frames, 8);
@@ -426,7 +423,7 @@ TEST(HeldFrameMovesEvenly)
     float position[3] = { frame.position[0], frame.position[1], frame.position[2] };
     for (int i = 0; i < 10; ++i) {
         position[0] += 0.01f;
-        OK(kiriFrame_Hold(host.world, frames[0], position, rotation));
+        OK(kiriFrame_Hold(host.world, frames[0], position, worldAxes));
         OK(Host_Tick(&host, DT, 4));
         OK(kiriFrame_GetState(host.world, frames[0], &frame));
         assert_true(Apart(frame.position, position) < 1e-6 && fabs(frame.velocity[0] - 0.6) < 1e-4);
@@ -560,7 +557,7 @@ static kiriPointState HangHalf(float push)
 {
     static const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.1f }, pushed[2] = { 0.2f, 0.08f };
     static const float way[4] = { -0.01f, 0.05f, 0.21f, 0.05f };
-    const float force[3] = { 0.0f, 0.0f, push }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float force[3] = { 0.0f, 0.0f, push };
     START_HOST(host);
     host.every = 120;
     kiriSheetDef def = DefaultSheet();
@@ -576,7 +573,7 @@ static kiriPointState HangHalf(float push)
     OK(kiriCut_End(host.world, cut));
     for (int i = 0; i < 120; ++i) {
         OK(Host_Tick(&host, DT, 2));
-        OK(kiriSheet_ApplyForce(host.world, sheet, pushed, force, none));
+        OK(kiriSheet_ApplyForce(host.world, sheet, pushed, force, noVector));
     }
     return PointAt(&host, sheet, 0.2f, 0.02f);
 }
@@ -592,26 +589,21 @@ TEST(SmoothClampKeepsPiecesApart)
 
 static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_SPHERE);
     def.radius = 0.05f;
     def.groups = 0; /* the pin alone */
     def.mass = mass;
-    def.position[0] = x;
-    def.position[1] = y;
-    def.position[2] = z;
-    kiriObstacle ball = World_AddObstacle(host->world, &def);
-    return ball;
+    Set3(def.position, x, y, z);
+    return World_AddObstacle(host->world, &def);
 }
 
 /* Where it goes the point goes, by velocity and by turning; what the pin bears the obstacle gets. */
 TEST(PinGoesWithObstacle)
 {
     kiriSheetDef def = Host_SmallDef();
-    const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f };
     kiriObstacleState ball;
     kiriPinState pinState;
-    kiriPinDef bad;
     START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     kiriObstacle obstacle = AddBall(&host, 0.1f, 1.0f, 0.0f, 0.0f);
@@ -632,13 +624,13 @@ TEST(PinGoesWithObstacle)
         assert_true(pinState.obstacle == obstacle);
     }
     assert_true(fabs(ball.rotation[0] - cos(2.0)) < 1e-3 && fabs(ball.position[0] - 1.1) < 1e-4);
-    OK(kiriObstacle_SetVelocity(host.world, obstacle, none, none));
+    OK(kiriObstacle_SetVelocity(host.world, obstacle, noVector, noVector));
     OK(kiriDestroyObstacle(host.world, obstacle));
     float last[3] = { pinState.target[0], pinState.target[1], pinState.target[2] };
     OK(Host_Tick(&host, DT, 2));
     OK(kiriPin_GetState(host.world, pin, &pinState));
     assert_true(pinState.obstacle == 0 && Apart(last, pinState.target) == 0.0);
-    kiriDefaultPinDef(&bad);
+    kiriPinDef bad = DefaultPin();
     bad.obstacle = obstacle;
     assert_int_equal(kiriCreatePin(host.world, sheet, &bad, &other), KIRI_ERROR_ID);
 }
@@ -649,8 +641,6 @@ TEST(BodyAtPinKeepsMomentum)
 {
     for (int decade = -2; decade <= 3; ++decade) {
         kiriSheetDef def = Host_SmallDef();
-        const float none[3] = { 0.0f, 0.0f, 0.0f },
-                    turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
         START_HOST(host);
         World_StopGravity(host.world);
         def.material.airDamping = 0.0f;
@@ -663,8 +653,8 @@ TEST(BodyAtPinKeepsMomentum)
         for (int i = 0; i < 120; ++i) {
             const float velocity[3] = { (float)v[0], (float)v[1], (float)v[2] };
             const float position[3] = { (float)x[0], (float)x[1], (float)x[2] };
-            OK(kiriObstacle_SetPose(host.world, obstacle, position, turned));
-            OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, none));
+            OK(kiriObstacle_SetPose(host.world, obstacle, position, worldAxes));
+            OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, noVector));
             OK(Host_Tick(&host, DT, 2));
             kiriObstacleState ball = World_ObstacleState(host.world, obstacle);
             kiriTotals totals = Host_Totals(&host, sheet);
@@ -736,7 +726,7 @@ TEST(TransformIsChecked)
 
 TEST(VelocityIsRigid)
 {
-    const float velocity[3] = { 1.0f, 2.0f, -0.5f }, spin[3] = { 0.3f, -0.2f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float velocity[3] = { 1.0f, 2.0f, -0.5f }, spin[3] = { 0.3f, -0.2f, 2.0f };
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
     for (int32_t model = 0; model < 2; ++model) {
         kiriSheetDef def = Host_SmallDef();
@@ -758,8 +748,8 @@ TEST(VelocityIsRigid)
         assert_true(fabs(grows) < 1e-6);
         Host_Cut(&host, sheet, line, 2);
         OK(Host_Tick(&host, DT, 2));
-        OK(kiriSheet_SetVelocity(host.world, sheet, none, none));
-        OK(kiriFrame_SetPieceVelocity(host.world, Host_FrameOf(&host, sheet, 1), velocity, none));
+        OK(kiriSheet_SetVelocity(host.world, sheet, noVector, noVector));
+        OK(kiriFrame_SetPieceVelocity(host.world, Host_FrameOf(&host, sheet, 1), velocity, noVector));
         kiriPieceState piece = World_PieceState(host.world, sheet, 0);
         assert_true(piece.momentum[0] == 0.0);
         OK(kiriSheet_GetPiece(host.world, sheet, 1, &piece));

@@ -179,13 +179,12 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     const float length = 0.2f, width = 0.02f, angle = 0.1f;
     const float middle[3] = { length, 0.5f * width };
     const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, cosf(angle), sinf(angle), 0.0f, -sinf(angle), cosf(angle) };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriSheetDef def = PaperDef(160, 1.0f);
     def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
     Host host;
     kiriPin clamps[2];
     double force[3], torque[3];
-    AddClampedStrip(&host, &def, count, aside, none, 160, clamps);
+    AddClampedStrip(&host, &def, count, aside, noVector, 160, clamps);
     OK(kiriPin_SetPose(host.world, clamps[1], middle, turned));
     World_Ticks(host.world, 200, 0.5f, 1);
     OK(kiriPin_GetReaction(host.world, clamps[1], force, torque));

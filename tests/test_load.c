@@ -138,7 +138,7 @@ TEST(EndLoad)
     for (int k = 0; k < 4; ++k) {
         START_HOST(host);
         const double* expected = cases[k % 2];
-        const float none[3] = { 0.0f, 0.0f, 0.0f }, down[3] = { 0.0f, 0.0f, (float)-expected[0] };
+        const float down[3] = { 0.0f, 0.0f, (float)-expected[0] };
         const float tip[2] = { 10.0f, 0.5f }, from[2] = { 10.0f, 0.0f }, to[2] = { 10.0f, 1.0f };
         World_StopGravity(host.world);
         kiriSheet sheet = AddStrip(&host, &strip);
@@ -146,7 +146,7 @@ TEST(EndLoad)
         ClampStart(&host, sheet, &strip, &clamp);
         host.every = 100;
         for (int i = 0; i < 700; ++i) {
-            OK(k < 2 ? kiriSheet_ApplyForce(host.world, sheet, tip, down, none)
+            OK(k < 2 ? kiriSheet_ApplyForce(host.world, sheet, tip, down, noVector)
                      : kiriSheet_ApplyLineLoad(host.world, sheet, from, to, down));
             OK(Host_Tick(&host, 0.1f, 1));
         }
@@ -178,8 +178,6 @@ static void CheckResultant(Host* host, kiriSheet sheet, const float force[3], do
     }
 }
 
-static const float nothing[3] = { 0.0f, 0.0f, 0.0f };
-
 /* A line load has the force and the torque of the line that lies in the material: along edges, through the sheet, along
    edges of triangles, beyond the outline, and along a cut. */
 TEST(LineLoads)
@@ -193,9 +191,7 @@ TEST(LineLoads)
     static const float q[3] = { 0.5f, -1.0f, 2.0f };
     for (int i = 0; i < 2 * (int)(sizeof(lines) / sizeof(lines[0])); ++i) {
         START_HOST(host);
-        kiriSheetDef def = DefaultSheet();
-        def.gridResolution = 24;
-        def.frameCount = 11;
+        kiriSheetDef def = SheetOf(24, 11);
         def.material.airDamping = 0.0f;
         World_StopGravity(host.world);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -248,11 +244,11 @@ TEST(PointLoads)
     kiriSheetDef def = Host_SmallDef();
     def.material.airDamping = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, nothing));
+    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, noVector));
     CheckResultant(&host, sheet, force, 1.0, place);
     CheckResultant(&host, sheet, force, 0.0, place); /* used up */
-    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, nothing));
-    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, nothing));
+    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, noVector));
+    OK(kiriSheet_ApplyForce(host.world, sheet, at, force, noVector));
     CheckResultant(&host, sheet, force, 2.0, place);
     OK(kiriSheet_ApplyPressure(host.world, sheet, 4.0f));
     CheckResultant(&host, sheet, pressure, 1.0, middle);
@@ -266,7 +262,6 @@ enum { POINTS, HINGE, CLAMP, HOLD, MIXED, HOLDS };
 static void HoldSheet(Host* host, kiriSheet sheet, int way)
 {
     static const float edge[4] = { 0.0f, 0.0f, 0.0f, 1.0f }, inner[4] = { 0.7f, 0.2f, 0.8f, 0.9f };
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     kiriPin pin;
     if (way == POINTS || way == MIXED) {
         for (int i = 0; i < 2; ++i) {
@@ -283,7 +278,7 @@ static void HoldSheet(Host* host, kiriSheet sheet, int way)
         kiriFrame frame;
         World_GetFrames(host->world, sheet, &frame, 1);
         kiriFrameState state = World_FrameState(host->world, frame);
-        OK(kiriFrame_Hold(host->world, frame, state.position, eye));
+        OK(kiriFrame_Hold(host->world, frame, state.position, worldAxes));
     }
 }
 
@@ -386,7 +381,6 @@ TEST(ReactionsInMotion)
 /* What wind does to a sheet that is held everywhere, the holds bear: the pressure of its area, at its centre. */
 TEST(HoldsBearWind)
 {
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const kiriWind wind = { { 3.0f, -2.0f, 5.0f }, 1.2f, 1.1f, 0.3f };
     for (int model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_AFFINE; ++model) {
         START_HOST(host);
@@ -396,7 +390,7 @@ TEST(HoldsBearWind)
         int32_t count = World_GetFrames(host.world, sheet, frames, 64);
         for (int32_t i = 0; i < count; ++i) {
             kiriFrameState frame = World_FrameState(host.world, frames[i]);
-            OK(kiriFrame_Hold(host.world, frames[i], frame.position, eye));
+            OK(kiriFrame_Hold(host.world, frames[i], frame.position, worldAxes));
         }
         OK(kiriSheet_SetWind(host.world, sheet, &wind));
         double force[3], torque[3];
@@ -487,7 +481,7 @@ TEST(PressureBetweenSupports)
    F L^3 / (3 E I) and shear, whether a clamp or a hinge holds them. */
 TEST(PullAndPush)
 {
-    const float none[3] = { 0.0f, 0.0f, 0.0f }, tip[2] = { STRIP_LENGTH, 0.5f * STRIP_WIDTH };
+    const float tip[2] = { STRIP_LENGTH, 0.5f * STRIP_WIDTH };
     for (int k = 0; k < 8; ++k) {
         const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e8, 1000.0, k < 4 ? 5 : 9 };
         bool isPull = k % 4 < 2;
@@ -497,7 +491,7 @@ TEST(PullAndPush)
         Beam beam;
         Beam_Start(&beam, &strip, k % 2 == 0 ? kiriSheet_ClampLine : kiriSheet_HingeLine, NULL);
         for (int i = 0; i < 700; ++i) {
-            OK(kiriSheet_ApplyForce(beam.host.world, beam.sheet, tip, isPull ? along : aside, none));
+            OK(kiriSheet_ApplyForce(beam.host.world, beam.sheet, tip, isPull ? along : aside, noVector));
             OK(Host_Tick(&beam.host, 0.01f, 1));
         }
         double end[3];
@@ -567,7 +561,7 @@ TEST(ClampThatMoves)
 /* The clamped strip of affine frames, under its own weight; and in its plane, pulled. */
 TEST(Models)
 {
-    const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    const float down[3] = { 0.0f, 0.0f, -9.81f };
     for (int k = 0; k < 4; ++k) {
         Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 0.0, 1000.0, 9 };
         double gamma = 6.951927962, tip[2] = { 0.7646665783, -0.5994022678 };
@@ -575,7 +569,7 @@ TEST(Models)
         strip.youngs = 12.0 * strip.density * GRAVITY * pow(strip.length, 3.0) / (gamma * pow(strip.thickness, 2.0));
         START_HOST(host);
         host.every = 50;
-        OK(kiriWorld_SetGravity(host.world, isPlanar ? none : down));
+        OK(kiriWorld_SetGravity(host.world, isPlanar ? noVector : down));
         float points[2 * MOST_ALONG];
         kiriSheetDef def = StripDef(&strip, points);
         def.model = k < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
@@ -637,8 +631,8 @@ TEST(Sleep)
         double force[3], torque[3], later[3];
         OK(kiriPin_GetReaction(host.world, clamp, force, torque));
         assert_float_equal(force[2], weight, 1e-2 * weight);
-        OK(kiriSheet_ApplyForce(host.world, sheet, at, nothing, nothing));
-        OK(kiriSheet_ApplyLineLoad(host.world, sheet, at, pose.to, nothing));
+        OK(kiriSheet_ApplyForce(host.world, sheet, at, noVector, noVector));
+        OK(kiriSheet_ApplyLineLoad(host.world, sheet, at, pose.to, noVector));
         OK(kiriSheet_ApplyPressure(host.world, sheet, 0.0f));
         OK(kiriPin_SetPose(host.world, clamp, pose.target, pose.rotation));
         OK(Host_Tick(&host, 0.04f, 1));
@@ -646,9 +640,9 @@ TEST(Sleep)
         OK(kiriPin_GetReaction(host.world, clamp, later, torque));
         assert_memory_equal(force, later, sizeof(force));
         if (k == 0) {
-            OK(kiriSheet_ApplyForce(host.world, sheet, at, some, nothing));
+            OK(kiriSheet_ApplyForce(host.world, sheet, at, some, noVector));
         } else if (k == 1) {
-            OK(kiriSheet_ApplyForce(host.world, sheet, at, nothing, some));
+            OK(kiriSheet_ApplyForce(host.world, sheet, at, noVector, some));
         } else if (k == 2) {
             OK(kiriSheet_ApplyLineLoad(host.world, sheet, at, pose.to, some));
         } else if (k == 3) {
@@ -673,9 +667,7 @@ static kiriSheet HangCurtain(Host* host, kiriPin* clamp)
     Host_Start(host);
     host->every = 20;
     OK(kiriWorld_SetGravity(host->world, back));
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 24;
-    def.frameCount = 12;
+    kiriSheetDef def = SheetOf(24, 12);
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
     OK(kiriSheet_ClampLine(host->world, sheet, top, top + 2, clamp));
     Host_Ticks(host, 20, 1.0f / 60.0f, 2);
@@ -786,8 +778,7 @@ TEST(PinsComeAndGo)
             for (int a = 0; a < 4; ++a) {
                 line[a] = 0.05f + 0.9f * (float)(Random(&seed) % 1000) / 1000.0f;
             }
-            kiriPinDef point;
-            kiriDefaultPinDef(&point);
+            kiriPinDef point = DefaultPin();
             memcpy(point.restPoint, line, sizeof(point.restPoint));
             int type = (int)(Random(&seed) % 3);
             OK(type == 0   ? kiriCreatePin(host.world, sheet, &point, &pins[count])

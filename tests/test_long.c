@@ -98,10 +98,9 @@ static void TakeBack(Play* play)
 
 static void AddSheet(Play* play)
 {
-    kiriPinDef pin;
     kiriPin id;
     kiriSheetDef def = DefaultSheet();
-    kiriDefaultPinDef(&pin);
+    kiriPinDef pin = DefaultPin();
     def.gridResolution = 24;
     def.frameCount = 6;
     def.maxFrames = 40;
@@ -234,8 +233,7 @@ static void PlayLong(bool staysOne)
     Play play;
     Period periods[PERIODS];
     int32_t pieces = 0, undone = 0, sheets = 0;
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.alloc = CountingAlloc;
     def.free = CountingFree;
     memset(&play, 0, sizeof(play));

@@ -358,9 +358,8 @@ FAR(Twice, 2.55, 3)
 
 static kiriWorld* CutSheet(const Layout* layout, int32_t squares, kiriSheet* sheet)
 {
-    kiriWorldDef worldDef;
     kiriWorld* world;
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     memset(worldDef.gravity, 0, sizeof(worldDef.gravity));
     assert_int_equal(kiriCreateWorld(&worldDef, &world), KIRI_OK);
     kiriSheetDef def = DefaultSheet();

@@ -54,7 +54,6 @@ typedef struct Setting {
 /* Everything that acts on a sheet, found anew each tick. */
 static void Act(Host* host, kiriSheet sheet, int tick)
 {
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     kiriFrame frames[64];
     float force[3] = { 0.01f, 0.02f, tick % 2 == 0 ? 0.0f : 0.03f }, torque[3] = { 0.0f, 0.0f, 0.001f };
     float place[3] = { 0.1f, 0.1f + 0.001f * (float)tick, 0.0f };
@@ -64,7 +63,7 @@ static void Act(Host* host, kiriSheet sheet, int tick)
         contacts[i] = contact;
     }
     World_GetFrames(host->world, sheet, frames, 64);
-    OK(kiriFrame_Hold(host->world, frames[0], place, eye));
+    OK(kiriFrame_Hold(host->world, frames[0], place, worldAxes));
     OK(kiriFrame_ApplyForce(host->world, frames[1], force, torque));
     OK(kiriSheet_SetContacts(host->world, sheet, contacts, 1 + tick % 4));
     OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1 + tick % 3));

@@ -17,17 +17,12 @@ typedef struct Pile {
 static void Start(Pile* pile, int32_t normals, int32_t skinning, int32_t touches)
 {
     Host_Start(&pile->host);
-    kiriObstacleDef box = DefaultObstacle();
-    box.type = KIRI_OBSTACLE_BOX;
-    box.size[0] = 0.3f;
-    box.size[1] = 0.4f;
-    box.size[2] = 0.2f;
+    kiriObstacleDef box = ObstacleOf(KIRI_OBSTACLE_BOX);
+    Set3(box.size, 0.3f, 0.4f, 0.2f);
     World_AddObstacle(pile->host.world, &box);
     for (int32_t i = 0; i < SHEETS; ++i) {
         kiriSheetDef def = Host_SmallDef();
-        def.position[0] = -0.4f + 0.05f * (float)i;
-        def.position[1] = -0.45f;
-        def.position[2] = 0.21f + 0.03f * (float)i;
+        Set3(def.position, -0.4f + 0.05f * (float)i, -0.45f, 0.21f + 0.03f * (float)i);
         def.touchesSheets = touches;
         def.contactThickness = 0.01f;
         def.normals = normals;

@@ -161,8 +161,7 @@ static const float dt = 1.0f / 60.0f;
 static kiriObstacleDef DefOf(int32_t type)
 {
     static const float outline[8] = { -0.3f, -0.2f, 0.3f, -0.2f, 0.3f, 0.2f, -0.3f, 0.2f };
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
+    kiriObstacleDef def = ObstacleOf(type);
     def.radius = 0.2f;
     def.height = 0.4f;
     def.size[0] = def.size[1] = def.size[2] = 0.4f;
@@ -186,9 +185,7 @@ static kiriSheet AddPlate(Host* host, float x, float z, float thickness)
     def.frameCount = def.maxFrames = 1;
     def.contactThickness = 0.01f;
     def.material.thickness = thickness;
-    def.position[0] = x - 0.1f;
-    def.position[1] = -0.1f;
-    def.position[2] = z;
+    Set3(def.position, x - 0.1f, -0.1f, z);
     return Host_AddRectangle(host, &def, 0.2f, 0.2f, 8, 8);
 }
 
@@ -280,15 +277,15 @@ TEST(BadDefsAreRefused)
 /* There it would be read as no float after a tick. Short of that it goes on, and comes back. */
 TEST(WhereFloatsEndNothingMoves)
 {
-    const float beyond[3] = { 0.0f, 5e37f, 0.0f }, within[3] = { 4e37f, -4e37f, 4e37f }, zero[3] = { 0 };
+    const float beyond[3] = { 0.0f, 5e37f, 0.0f }, within[3] = { 4e37f, -4e37f, 4e37f };
     for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
         START_HOST(host);
         kiriObstacleDef def = DefOf(type);
         kiriObstacle obstacle = Add(&host, &def);
         AddPlate(&host, 0.0f, 2.0f, 0.001f);
         REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetPose(host.world, obstacle, beyond, def.rotation));
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, beyond, zero));
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, zero, beyond));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, beyond, noVector));
+        REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetVelocity(host.world, obstacle, noVector, beyond));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriObstacle_SetSurfaceVelocity(host.world, obstacle, beyond));
         OK(kiriObstacle_SetPose(host.world, obstacle, within, def.rotation));
         OK(kiriObstacle_SetVelocity(host.world, obstacle, within, within));
@@ -298,8 +295,8 @@ TEST(WhereFloatsEndNothingMoves)
             kiriObstacleState now = StateOf(&host, obstacle);
             assert_true(AllFinite(now.position, 3) && AllFinite(now.rotation, 9));
         }
-        OK(kiriObstacle_SetVelocity(host.world, obstacle, zero, zero));
-        OK(kiriObstacle_SetPose(host.world, obstacle, zero, def.rotation));
+        OK(kiriObstacle_SetVelocity(host.world, obstacle, noVector, noVector));
+        OK(kiriObstacle_SetPose(host.world, obstacle, noVector, def.rotation));
         OK(Host_Tick(&host, dt, 1));
     }
 }
@@ -330,7 +327,9 @@ TEST(PlateRestsOnAFloor)
 static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
 {
     kiriSheet sheet = AddPlate(host, 0.0f, 0.2051f, 0.001f);
-    Host_Ticks(host, 120 && IsAwake(host, sheet), dt, 2);
+    for (int i = 0; i < 120 && IsAwake(host, sheet); ++i) {
+        OK(Host_Tick(host, dt, 2));
+    }
     assert_false(IsAwake(host, sheet));
     return sheet;
 }
@@ -364,7 +363,7 @@ TEST(PushSpeedIsKept)
 TEST(SleepersWake)
 {
     enum { DESTROY, PUT, MOVE, MAKE, CHURN, CASES };
-    const float away[3] = { 3.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.1f }, none[3] = { 0 };
+    const float away[3] = { 3.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.1f };
     for (int which = 0; which < CASES; ++which) {
         for (int isFar = 0; isFar < 2; ++isFar) {
             START_HOST(host);
@@ -380,7 +379,7 @@ TEST(SleepersWake)
             } else if (which == PUT) {
                 OK(kiriObstacle_SetPose(host.world, touched, away, def.rotation));
             } else if (which == MOVE) {
-                OK(kiriObstacle_SetVelocity(host.world, touched, up, none));
+                OK(kiriObstacle_SetVelocity(host.world, touched, up, noVector));
             } else if (which == CHURN) {
                 OK(kiriObstacle_SetSurfaceVelocity(host.world, touched, up));
             }
@@ -397,8 +396,8 @@ TEST(SlowLiftsCarry)
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
     kiriObstacle box = Add(&host, &def);
     kiriSheet sheet = RestOn(&host, box);
-    const float up[3] = { 0.0f, 0.0f, 0.0008f }, none[3] = { 0 };
-    OK(kiriObstacle_SetVelocity(host.world, box, up, none));
+    const float up[3] = { 0.0f, 0.0f, 0.0008f };
+    OK(kiriObstacle_SetVelocity(host.world, box, up, noVector));
     Host_Ticks(&host, 600, dt, 2);
     double height = TotalsOf(&host, sheet).center[2] - (double)StateOf(&host, box).position[2];
     assert_true(fabs(StateOf(&host, box).position[2] - 0.008) < 1e-5);
@@ -719,9 +718,7 @@ TEST(RoundObstaclesHoldBetweenVertices)
             memcpy(def.rotation, lying, sizeof(lying));
             def.radius = 0.01f;
             def.height = 0.02f;
-            def.position[0] = places[i][0];
-            def.position[1] = planar ? 0.0f : places[i][1];
-            def.position[2] = -0.01f;
+            Set3(def.position, places[i][0], planar ? 0.0f : places[i][1], -0.01f);
             Add(&host, &def);
         }
         kiriSheetDef plate = DefaultSheet();
@@ -731,9 +728,7 @@ TEST(RoundObstaclesHoldBetweenVertices)
         plate.contactThickness = 0.004f;
         plate.axisV[1] = planar ? 0.0f : 1.0f;
         plate.axisV[2] = planar ? 1.0f : 0.0f;
-        plate.position[0] = -0.1f;
-        plate.position[1] = planar ? 0.0f : -0.1f;
-        plate.position[2] = 0.02f;
+        Set3(plate.position, -0.1f, planar ? 0.0f : -0.1f, 0.02f);
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 1, 1);
         Ticks(&host, 90);
         assert_true(fabs(TotalsOf(&host, sheet).center[2] - (planar ? 0.102 : 0.002)) < 1e-3);
@@ -768,9 +763,7 @@ static void FillWorld(Host* host, kiriSheet sheets[2])
         kiriSheetDef def = DefaultSheet();
         def.gridResolution = 8;
         def.frameCount = def.maxFrames = 4;
-        def.position[0] = -0.8f + 0.7f * (float)i;
-        def.position[1] = -0.4f;
-        def.position[2] = 0.41f;
+        Set3(def.position, -0.8f + 0.7f * (float)i, -0.4f, 0.41f);
         sheets[i] = Host_AddRectangle(host, &def, 0.8f, 0.8f, 12, 12);
     }
 }

@@ -17,9 +17,7 @@ static kiriSheetDef SquareDef(float x, float y, float z)
     def.frameCount = 4;
     def.touchesSheets = 1;
     def.contactThickness = 0.004f;
-    def.position[0] = x;
-    def.position[1] = y;
-    def.position[2] = z;
+    Set3(def.position, x, y, z);
     return def;
 }
 
@@ -56,8 +54,7 @@ static const float dt = 1.0f / 60.0f;
 static void AddFloor(Host* host)
 {
     kiriObstacle floor = 0;
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
     OK(kiriCreateObstacle(host->world, &def, &floor));
 }
 
@@ -80,7 +77,9 @@ TEST(WhoWasAloneIsFound)
     kiriSheet other = AddSquare(&host, &def);
     OK(Host_Tick(&host, dt, 2)); /* both are known where they are */
     OK(kiriDestroySheet(host.world, other));
-    Host_Ticks(&host, 600 && IsAwake(&host, first), dt, 2);
+    for (int i = 0; i < 600 && IsAwake(&host, first); ++i) {
+        OK(Host_Tick(&host, dt, 2));
+    }
     assert_false(IsAwake(&host, first));
     def = SquareDef(0.02f, 0.0f, 0.006f);
     AddSquare(&host, &def);
@@ -114,7 +113,9 @@ TEST(SleeperIsMet)
         if (way < 2) {
             AddPinnedSquare(&host, z, moved);
         }
-        Host_Ticks(&host, 600 && IsAwake(&host, sleeper), dt, 2);
+        for (int i = 0; i < 600 && IsAwake(&host, sleeper); ++i) {
+            OK(Host_Tick(&host, dt, 2));
+        }
         assert_false(IsAwake(&host, sleeper));
         if (way >= 2) {
             AddPinnedSquare(&host, z, moved); /* it was alone so far */
@@ -254,9 +255,7 @@ static double Sag(bool isLoaded)
 {
     START_HOST(host);
     host.every = 30;
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 16;
-    def.frameCount = 9;
+    kiriSheetDef def = SheetOf(16, 9);
     def.touchesSheets = 1;
     def.material.airDamping = 2.0f;
     def.contactThickness = 0.004f;
@@ -331,8 +330,7 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
 {
     kiriPin pins[3];
     START_HOST(host);
-    kiriObstacleDef floorDef = DefaultObstacle();
-    floorDef.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
     World_AddObstacle(host.world, &floorDef);
     kiriSheetDef def = DefaultSheet();
     def.frameCount = 36;

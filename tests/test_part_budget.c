@@ -156,9 +156,7 @@ static double Drop(Host* host, kiriSheet sheet, double area)
 static kiriSheetDef DefOfRun(uint32_t run)
 {
     static const float layers[] = { 0.0f, 30.0f };
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 20;
-    def.frameCount = 6;
+    kiriSheetDef def = SheetOf(20, 6);
     def.maxFrames = 4096;
     def.collisionPoints = layers[run % 2];
     def.sleepSpeed = run % 3 == 0 ? def.sleepSpeed : 0.0f;
@@ -190,9 +188,8 @@ static void Disturb(Host* host, kiriSheet sheet, kiriFrame leaves, kiriFrame oth
 {
     static const float quarter[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, shift[3] = { 1, 2, 3 };
     kiriSheetSettings settings;
-    kiriPinDef def;
     kiriPin pin;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     def.restPoint[0] = 0.5f;
     def.restPoint[1] = 0.12f;
     switch (disturbance) {

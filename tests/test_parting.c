@@ -31,9 +31,7 @@ static kiriSheet Chop(Host* host, kiriSheetDef* def, int32_t across, int32_t alo
 
 static kiriSheetDef DefOf(int32_t resolution)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = resolution;
-    def.frameCount = 6;
+    kiriSheetDef def = SheetOf(resolution, 6);
     def.maxFrames = 4096;
     def.collisionPoints = 40;
     def.sleepSpeed = 0.0f;
@@ -553,8 +551,7 @@ TEST(GoneIsGone)
     FindStrip(&host, wait.sheet, 1, beside);
     float at[2] = { 0.5f, 0.5f * (strip[0] + strip[1]) };
     int32_t point = piece.collisionPoints[0];
-    kiriPinDef pinDef;
-    kiriDefaultPinDef(&pinDef);
+    kiriPinDef pinDef = DefaultPin();
     memcpy(pinDef.restPoint, at, sizeof(at));
     kiriPin pin = World_AddPin(host.world, wait.sheet, &pinDef);
     pinDef.restPoint[1] = 0.5f * (beside[0] + beside[1]);
@@ -660,8 +657,7 @@ TEST(TouchesGoOn)
         kiriSheet sheets[2], made = 0;
         for (int k = 0; k < 2; ++k) {
             Host_Start(&hosts[k]);
-            kiriObstacleDef floor = DefaultObstacle();
-            floor.type = KIRI_OBSTACLE_PLANE;
+            kiriObstacleDef floor = ObstacleOf(KIRI_OBSTACLE_PLANE);
             static const float gravity[3] = { 1.0f, 0.0f, -9.7f };
             OK(kiriWorld_SetGravity(hosts[k].world, gravity));
             World_AddObstacle(hosts[k].world, &floor);
@@ -747,9 +743,7 @@ static void TryShape(float width, float height, int32_t columns, int32_t rows, i
                      float rigidArea, int32_t* refused)
 {
     START_HOST(host);
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = resolution;
-    def.frameCount = frames;
+    kiriSheetDef def = SheetOf(resolution, frames);
     def.rigidArea = rigidArea;
     def.maxFrames = 60;
     kiriSheet sheet;

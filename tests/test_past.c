@@ -162,10 +162,9 @@ static void Check(Past* past)
 
 static void AddSheet(Past* past)
 {
-    kiriPinDef pin;
     int32_t squares = Random(&past->seed) % 3 == 0 ? 68 : 4 + (int32_t)(Random(&past->seed) % 20);
     kiriSheetDef def = DefaultSheet();
-    kiriDefaultPinDef(&pin);
+    kiriPinDef pin = DefaultPin();
     def.gridResolution = 16;
     def.frameCount = 4;
     def.maxFrames = 64;

@@ -20,9 +20,7 @@ static void Shred(Host* host, kiriSheet sheet, int32_t lines, uint32_t* seed)
 
 static kiriSheetDef AnyDef(uint32_t* seed)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 12 + (int32_t)(Random(seed) % 12);
-    def.frameCount = 3 + (int32_t)(Random(seed) % 5);
+    kiriSheetDef def = SheetOf(12 + (int32_t)(Random(seed) % 12), 3 + (int32_t)(Random(seed) % 5));
     def.maxFrames = 4096;
     def.collisionPoints = (int32_t)(Random(seed) % 3) * 20;
     def.sleepSpeed = 0.0f;
@@ -516,9 +514,7 @@ TEST(MotionGoesOn)
 /* A sheet in four strips: 0 is the lowest frame's, and so on. */
 static kiriSheet Strips(Host* host, int32_t count)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 16;
-    def.frameCount = 6;
+    kiriSheetDef def = SheetOf(16, 6);
     def.collisionPoints = 12;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 8, 8);
     for (int32_t i = 1; i < count; ++i) {

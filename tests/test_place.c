@@ -193,9 +193,7 @@ TEST(CloseFramePointsAreRefused)
     for (int32_t k = 1; k < 20; ++k) {
         float points[4] = { 0.51f, 0.26f, 0.51f + 0.01f * (float)k, 0.26f };
         START_HOST(host);
-        kiriSheetDef def = DefaultSheet();
-        def.gridResolution = 10;
-        def.frameCount = 2;
+        kiriSheetDef def = SheetOf(10, 2);
         def.framePoints = points;
         if (k < 10) {
             AssertRefused(&host, &def, "gridResolution");
@@ -223,9 +221,7 @@ TEST(ResamplingStops)
 {
     static const float across[4] = { 0.31f, -0.1f, 0.31f, 0.6f }, along[4] = { 0.5f, 0.26f, 1.1f, 0.26f };
     START_HOST(host);
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 10;
-    def.frameCount = 2;
+    kiriSheetDef def = SheetOf(10, 2);
     def.rigidArea = 1e-9f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 8, 4);
     assert_int_equal(Host_Counts(&host, sheet).frames, 2);

@@ -304,8 +304,7 @@ TEST(IdsComeOnce)
     START_HOST(host);
     kiriSheetDef def = TinyDef();
     SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 1, 1);
-    kiriPinDef pin;
-    kiriDefaultPinDef(&pin);
+    kiriPinDef pin = DefaultPin();
     kiriSheet sheet;
     for (int i = 0; i < SHEETS; ++i) {
         OK(kiriCreateSheet(host.world, &def, &sheet));

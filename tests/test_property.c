@@ -65,9 +65,7 @@ static uint64_t Run(uint32_t seed, bool check)
 {
     START_HOST(host);
     host.every = check ? 3 : CUTS; /* to save time */
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 8;
-    def.frameCount = FRAMES;
+    kiriSheetDef def = SheetOf(8, FRAMES);
     def.maxFrames = FRAMES;
     def.collisionPoints = 4;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, COLUMNS, COLUMNS);

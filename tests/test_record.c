@@ -109,8 +109,7 @@ static void Refuse(kiriWorld* world, kiriSheet sheet)
 static void Obstruct(kiriWorld* world)
 {
     static const float outline[8] = { -1.0f, -1.0f, 1.0f, -1.0f, 1.0f, 1.0f, -1.0f, 1.0f };
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_PRISM;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PRISM);
     def.outline = outline;
     def.outlineCount = 4;
     def.height = 0.1f;
@@ -276,7 +275,6 @@ TEST(ReadOnlyArguments)
 {
     const kiriBudget budget = { 1000, 100000, 100000, 1000 };
     const kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
-    kiriObstacleDef obstacleDef;
     kiriObstacle obstacle;
     kiriSheet sheet;
     SCOPED(Tape, tape, Tape_Free);
@@ -286,7 +284,7 @@ TEST(ReadOnlyArguments)
     SCOPED_AS(Rectangle, mesh, Rectangle_Free) = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
     def.restPositions = Freeze(mesh.positions, sizeof(float) * 50);
     def.indices = Freeze(mesh.indices, sizeof(int32_t) * 96);
-    kiriDefaultObstacleDef(&obstacleDef);
+    kiriObstacleDef obstacleDef = DefaultObstacle();
     OK(kiriCreateSheet(world, Freeze(&def, sizeof def), &sheet));
     OK(kiriCreateObstacle(world, Freeze(&obstacleDef, sizeof obstacleDef), &obstacle));
     OK(kiriWorld_SetBudget(world, Freeze(&budget, sizeof budget)));

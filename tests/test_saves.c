@@ -288,8 +288,7 @@ static void StartSmall(Host* host)
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 3, 3);
     const float points[4] = { -0.1f, 0.4f, 1.1f, 0.6f };
     Host_Pin(host, sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
-    kiriObstacleDef obstacleDef = DefaultObstacle();
-    obstacleDef.type = KIRI_OBSTACLE_BOX;
+    kiriObstacleDef obstacleDef = ObstacleOf(KIRI_OBSTACLE_BOX);
     obstacleDef.size[0] = obstacleDef.size[1] = obstacleDef.size[2] = 0.2f;
     kiriObstacle obstacle;
     assert_int_equal(kiriCreateObstacle(host->world, &obstacleDef, &obstacle), KIRI_OK);
@@ -470,9 +469,7 @@ TEST(SmallSavesTakeLittle)
 {
     static const int32_t numbers[] = { INT32_MAX, 1 << 24, 1 << 16, 5000 };
     START_HOST(host);
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 2;
-    def.frameCount = 1;
+    kiriSheetDef def = SheetOf(2, 1);
     Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);
     OK(Host_Tick(&host, 0.01f, 1));
     Save good = Saved_Make(host.world);

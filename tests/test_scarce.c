@@ -226,10 +226,9 @@ static uint64_t LayoutOf(const Scene* scene)
 
 static uint64_t Run(const SceneType* type, bool isPoor)
 {
-    kiriWorldDef def;
     Scene scene;
     uint32_t seed = 2463534242u;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.alloc = ScarceAlloc;
     def.free = ScarceFree;
     def.clock = Arm;

@@ -10,8 +10,7 @@ static char filePath[1024]; /* beside the program */
 static void RecordScene(const char* name, int32_t ticks, Scene* scene)
 {
     FILE* file;
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     assert_true(SceneRecord_Open(&file, filePath, &def));
     def.recordHashTicks = 7;
     assert_true(Scene_Start(scene, Scene_FindType(name), &def, &(SceneOptions){ .plain = false }));
@@ -28,8 +27,7 @@ static void CheckReplay(const char* name, int32_t ticks)
 {
     Scene recorded, scene;
     SCOPED(SceneReplay, replay, SceneReplay_Free);
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     RecordScene(name, ticks, &recorded);
     assert_true(SceneReplay_Start(&replay, filePath, &scene, Scene_GetType(0), &def));
     assert_true(replay.isRight);
@@ -76,13 +74,11 @@ TEST(WorldsOfHosts)
     static uint8_t bytes[1 << 20];
     FILE* file;
     kiriWorld* world;
-    kiriWorldDef def;
-    kiriSheetDef sheetDef;
     kiriSheet sheet;
     uint64_t hashes[2];
     int64_t size = 0;
-    kiriDefaultWorldDef(&def);
-    kiriDefaultSheetDef(&sheetDef);
+    kiriWorldDef def = DefaultWorld();
+    kiriSheetDef sheetDef = DefaultSheet();
     assert_true(SceneRecord_Open(&file, filePath, &def));
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_OK);
     for (int32_t i = 0; i < 2; i++, sheetDef.position[0] += 10.0f) {
@@ -122,8 +118,7 @@ TEST(NoRecording)
     Scene scene;
     SceneReplay replay;
     FILE* file;
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     assert_false(SceneReplay_Start(&replay, "build/no such file", &scene, Scene_GetType(0), &def));
     SceneReplay_Free(&replay);
     assert_false(SceneReplay_Start(&replay, "README.md", &scene, Scene_GetType(0), &def));

@@ -14,8 +14,7 @@ typedef struct Pair {
 
 static kiriSeamDef SeamDef(kiriSheet a, const float* lineA, kiriSheet b, const float* lineB, int32_t count)
 {
-    kiriSeamDef def;
-    kiriDefaultSeamDef(&def);
+    kiriSeamDef def = DefaultSeam();
     def.sheetA = a;
     def.lineA = lineA;
     def.sheetB = b;
@@ -80,8 +79,7 @@ static double Distance(const float a[3], const float b[3])
 
 static void HoldTop(Host* host, kiriSheet sheet)
 {
-    kiriPinDef pin;
-    kiriDefaultPinDef(&pin);
+    kiriPinDef pin = DefaultPin();
     kiriPin made = World_AddPin(host->world, sheet, &pin);
     pin.restPoint[1] = pin.target[1] = 0.5f;
     OK(kiriCreatePin(host->world, sheet, &pin, &made));
@@ -111,7 +109,7 @@ static Sum SumOf(const Host* host, const Pair* pair)
 /* One square is thrown, and drags the other along. */
 static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t model)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f }, velocity[3] = { 0.1f, 0.3f, 1.0f };
+    static const float velocity[3] = { 0.1f, 0.3f, 1.0f };
     START_HOST(host);
     World_StopGravity(host.world);
     kiriSheetDef def = Host_SmallDef();
@@ -119,7 +117,7 @@ static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t mode
     def.material.airDamping = 0.0f;
     def.model = model;
     Pair pair = Pair_Make(&host, &def, framesA, framesB);
-    OK(kiriSheet_SetVelocity(host.world, pair.b, velocity, none));
+    OK(kiriSheet_SetVelocity(host.world, pair.b, velocity, noVector));
     Sum start = SumOf(&host, &pair);
     double size = start.mass * 1.05;
     for (int32_t tick = 0; tick < 90; ++tick) {
@@ -219,7 +217,6 @@ TEST(Sleeve)
     kiriSheetDef def = Host_SmallDef();
     kiriSheet panels[2];
     kiriSeam seams[2];
-    kiriObstacleDef arm;
     def.gridResolution = 32;
     def.framePoints = NULL;
     def.frameCount = 16;
@@ -234,7 +231,7 @@ TEST(Sleeve)
         kiriSeamDef seam = SeamDef(panels[0], lines[k], panels[1], lines[k], 2);
         OK(kiriCreateSeam(host.world, &seam, &seams[k]));
     }
-    kiriDefaultObstacleDef(&arm);
+    kiriObstacleDef arm = DefaultObstacle();
     arm.type = KIRI_OBSTACLE_CAPSULE;
     arm.radius = 0.045f;
     arm.height = 0.5f;
@@ -260,7 +257,6 @@ TEST(Sleeve)
 /* Half of a sheet hangs on a hinge: stiffness times angle is the moment of its weight. */
 static void Hinge(int32_t frames, float stiffness)
 {
-    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const float b = 0.05f, edge[4] = { b, 0.0f, b, b }, other[4] = { 0.0f, 0.0f, 0.0f, b };
     kiriFrame held[16];
     START_HOST(host);
@@ -275,7 +271,7 @@ static void Hinge(int32_t frames, float stiffness)
     int32_t count = World_GetFrames(host.world, a, held, 16);
     for (int32_t i = 0; i < count; ++i) {
         kiriFrameState frame = World_FrameState(host.world, held[i]);
-        OK(kiriFrame_Hold(host.world, held[i], frame.position, eye));
+        OK(kiriFrame_Hold(host.world, held[i], frame.position, worldAxes));
     }
     kiriSeamDef seam = SeamDef(a, edge, hanging, other, 2);
     kiriStitch stitch;
@@ -407,8 +403,7 @@ TEST(Bag)
         def.position[1] = k == 0 ? 0.0f : 0.01f;
         panels[k] = Host_AddRectangle(&host, &def, 0.5f, 0.5f, 20, 20);
         for (int i = 0; i < 2; ++i) {
-            kiriPinDef pin;
-            kiriDefaultPinDef(&pin);
+            kiriPinDef pin = DefaultPin();
             pin.restPoint[0] = pin.target[0] = 0.1f + 0.3f * (float)i;
             pin.restPoint[1] = pin.target[2] = 0.5f;
             pin.target[1] = def.position[1];
@@ -437,7 +432,6 @@ static void DropBall(float mass, float aside)
     kiriSheet panels[2];
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefaultSheet();
-        kiriPinDef pin;
         kiriPin made;
         def.position[0] = -0.15f;
         def.position[1] = k == 0 ? -0.01f : 0.01f;
@@ -445,7 +439,7 @@ static void DropBall(float mass, float aside)
         def.axisV[2] = 1.0f;
         def.frameCount = 36;
         panels[k] = Host_AddRectangle(&host, &def, 0.3f, 0.3f, 30, 30);
-        kiriDefaultPinDef(&pin);
+        kiriPinDef pin = DefaultPin();
         for (int i = 0; i < 2; ++i) {
             pin.restPoint[0] = 0.1f * (float)(i + 1);
             pin.restPoint[1] = pin.target[2] = 0.3f;

@@ -15,9 +15,7 @@ typedef struct Way {
 static kiriSheet Dice(Host* host, const Way* way)
 {
     kiriBudget budget = { .triangles = 60, .cells = 400, .samples = 60 };
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 36;
-    def.frameCount = 4;
+    kiriSheetDef def = SheetOf(36, 4);
     def.maxFrames = 4096;
     def.rigidArea = 1.0f;
     def.skinning = way->skinning;
@@ -71,7 +69,6 @@ static float Unit(uint32_t* seed)
 /* A push, a slit, a cut through a few pieces, a piece that goes, other settings, a push to all, or nothing. */
 static void Disturb(Host* host, kiriSheet sheet, uint32_t* seed)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     float u = 0.02f + 0.96f * Unit(seed), v = 0.02f + 0.96f * Unit(seed);
     kiriFrame frame = FrameAtPlace(host, sheet, u, v);
     const float push[3] = { 0.1f * Unit(seed), 0.1f * Unit(seed), 0.3f * Unit(seed) };
@@ -90,7 +87,7 @@ static void Disturb(Host* host, kiriSheet sheet, uint32_t* seed)
         settings.skinning = 1 - settings.skinning;
         OK(kiriSheet_SetSettings(host->world, sheet, &settings));
     } else if (what < 24) {
-        OK(kiriSheet_SetVelocity(host->world, sheet, push, none));
+        OK(kiriSheet_SetVelocity(host->world, sheet, push, noVector));
     }
 }
 
@@ -134,7 +131,7 @@ TEST(AsWrittenAnew)
 TEST(PartsWakeAlone)
 {
     enum { CUTS = 6 };
-    static const float none[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.2f };
+    static const float up[3] = { 0.0f, 0.0f, 0.2f };
     const Way way = { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false };
     START_HOST(host);
     kiriSheet sheet = Dice(&host, &way);
@@ -148,7 +145,7 @@ TEST(PartsWakeAlone)
     assert_int_equal(CountAsleep(&host, sheet), pieces);
     for (int32_t k = 0; k < 2 * CUTS; ++k) {
         float u = (1.5f + (float)(k / 2)) / DICE, v = (2.5f + (float)(k / 2) + (k % 2 ? 0.3f : -0.3f)) / DICE;
-        OK(kiriFrame_SetPieceVelocity(host.world, FrameAtPlace(&host, sheet, u, v), up, none));
+        OK(kiriFrame_SetPieceVelocity(host.world, FrameAtPlace(&host, sheet, u, v), up, noVector));
         OK(Host_Tick(&host, dt, 1));
         assert_int_equal(CountAsleep(&host, sheet), pieces - 1 - k);
     }
@@ -239,7 +236,6 @@ TEST(DetailOfCurtain)
 /* The drawn surface goes through pins and held frames. */
 TEST(DetailIsHeld)
 {
-    static const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     enum { FRAMES = 25, MIDDLE = 12 };
     kiriPin pins[2];
     kiriFrame frames[FRAMES];
@@ -247,7 +243,7 @@ TEST(DetailIsHeld)
     kiriSheet sheet = AddCloth(&host, 2, FRAMES, pins);
     World_GetFrames(host.world, sheet, frames, FRAMES);
     kiriFrameState start = World_FrameState(host.world, frames[MIDDLE]);
-    OK(kiriFrame_Hold(host.world, frames[MIDDLE], start.position, upright));
+    OK(kiriFrame_Hold(host.world, frames[MIDDLE], start.position, worldAxes));
     for (int32_t tick = 0; tick < 120; ++tick) {
         const float in = 0.003f * (float)(tick < 100 ? tick : 100);
         const float corners[2][3] = { { in, 1.0f, 0.0f }, { 1.0f - in, 1.0f, 0.0f } };
@@ -274,8 +270,7 @@ TEST(DetailOnBall)
     for (int32_t i = 0; i < 2; ++i) {
         Host_Start(&hosts[i]);
         sheet[i] = AddCloth(&hosts[i], 2 * i, 25, NULL);
-        kiriObstacleDef def = DefaultObstacle();
-        def.type = KIRI_OBSTACLE_SPHERE;
+        kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_SPHERE);
         def.radius = 0.3f;
         def.position[0] = def.position[1] = 0.5f;
         def.position[2] = -0.31f;

@@ -131,7 +131,6 @@ typedef enum Call { SAME_TARGET, SAME_GRAVITY, NO_FORCE, FREE_AGAIN, NO_CONTACTS
 
 static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call call)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     static const float gravity[3] = { 0.0f, 0.0f, -9.81f }, lighter[3] = { 0.0f, 0.0f, -9.8f };
     static const float target[3] = { 0.0f, 1.0f, 0.0f }, farther[3] = { 0.0f, 1.001f, 0.0f };
     kiriFrame frames[8];
@@ -144,7 +143,7 @@ static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call cal
         OK(kiriWorld_SetGravity(host->world, gravity));
         break;
     case NO_FORCE:
-        OK(kiriFrame_ApplyForce(host->world, frames[1], none, none));
+        OK(kiriFrame_ApplyForce(host->world, frames[1], noVector, noVector));
         break;
     case FREE_AGAIN:
         OK(kiriFrame_Hold(host->world, frames[1], NULL, NULL));

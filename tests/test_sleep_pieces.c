@@ -40,8 +40,7 @@ static int32_t StripAt(const Host* host, kiriSheet sheet, int strip)
 {
     const float rest[2] = { ((float)strip + 0.55f) / STRIPS, 0.48f };
     kiriPointState point = World_PointState(host->world, sheet, rest);
-    int32_t piece = World_PieceOf(host->world, point.frame);
-    return piece;
+    return World_PieceOf(host->world, point.frame);
 }
 
 static kiriFrame FrameAt(const Host* host, kiriSheet sheet, int strip)
@@ -56,9 +55,7 @@ static uint32_t Bit(const Host* host, kiriSheet sheet, int strip)
 
 static kiriSheetDef StripsDef(void)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 16;
-    def.frameCount = 8;
+    kiriSheetDef def = SheetOf(16, 8);
     def.maxFrames = 64;
     def.collisionPoints = 24;
     def.material.airDamping = 4.0f;
@@ -95,9 +92,8 @@ static kiriSheet StartStrips(Host* host)
 
 static void Throw(Host* host, kiriSheet sheet, int strip, float up)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float velocity[3] = { 0.0f, 0.0f, up };
-    OK(kiriFrame_SetPieceVelocity(host->world, FrameAt(host, sheet, strip), velocity, none));
+    OK(kiriFrame_SetPieceVelocity(host->world, FrameAt(host, sheet, strip), velocity, noVector));
 }
 
 /* ---- Falling asleep ---- */
@@ -188,8 +184,7 @@ typedef enum Call {
 /* To the third strip alone, up to NO_FORCE. */
 static void Perform(Host* host, kiriSheet sheet, Call call)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f }, some[3] = { 1e-4f, 0.0f, 1e-4f },
-                       eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    static const float some[3] = { 1e-4f, 0.0f, 1e-4f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     static const float at[2] = { 0.6f, 0.48f }, from[2] = { 0.1f, 0.5f }, to[2] = { 0.9f, 0.5f };
     kiriFrame frame = FrameAt(host, sheet, 2);
     kiriSheetSettings settings;
@@ -200,19 +195,19 @@ static void Perform(Host* host, kiriSheet sheet, Call call)
     switch (call) {
     case FORCE:
     case NO_FORCE:
-        OK(kiriFrame_ApplyForce(host->world, frame, call == FORCE ? some : none, none));
+        OK(kiriFrame_ApplyForce(host->world, frame, call == FORCE ? some : noVector, noVector));
         break;
     case TORQUE:
-        OK(kiriFrame_ApplyForce(host->world, frame, none, some));
+        OK(kiriFrame_ApplyForce(host->world, frame, noVector, some));
         break;
     case POINT_FORCE:
-        OK(kiriSheet_ApplyForce(host->world, sheet, at, some, none));
+        OK(kiriSheet_ApplyForce(host->world, sheet, at, some, noVector));
         break;
     case IMPULSE:
         OK(kiriSheet_ApplyImpulse(host->world, sheet, at, some));
         break;
     case VELOCITY:
-        OK(kiriFrame_SetPieceVelocity(host->world, frame, some, none));
+        OK(kiriFrame_SetPieceVelocity(host->world, frame, some, noVector));
         break;
     case HOLD:
         OK(kiriFrame_Hold(host->world, frame, point.position, eye));
@@ -236,7 +231,7 @@ static void Perform(Host* host, kiriSheet sheet, Call call)
         OK(kiriSheet_SetSettings(host->world, sheet, &settings));
         break;
     case SHEET_VELOCITY:
-        OK(kiriSheet_SetVelocity(host->world, sheet, some, none));
+        OK(kiriSheet_SetVelocity(host->world, sheet, some, noVector));
         break;
     default:
         OK(kiriSheet_Wake(host->world, sheet));
@@ -378,15 +373,11 @@ TEST(CutWakesItsPiece)
 
 static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_SPHERE);
     def.radius = 0.03f;
-    def.position[0] = u;
-    def.position[1] = v;
-    def.position[2] = z;
+    Set3(def.position, u, v, z);
     def.velocity[2] = up;
-    kiriObstacle ball = World_AddObstacle(host->world, &def);
-    return ball;
+    return World_AddObstacle(host->world, &def);
 }
 
 TEST(ObstacleWakesWhatIsNear)
@@ -491,8 +482,7 @@ TEST(FloorBearsSleepers)
     def.position[2] = 0.001f;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriObstacleDef floorDef = DefaultObstacle();
-    floorDef.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
     kiriObstacle floor = World_AddObstacle(host.world, &floorDef);
     OK(kiriWorld_SetGravity(host.world, down));
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
@@ -524,8 +514,7 @@ TEST(WhatSleepersPressWith)
     def.position[2] = 0.001f;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriObstacleDef tableDef = DefaultObstacle();
-    tableDef.type = KIRI_OBSTACLE_BOX;
+    kiriObstacleDef tableDef = ObstacleOf(KIRI_OBSTACLE_BOX);
     tableDef.size[0] = tableDef.size[1] = 3.0f;
     tableDef.size[2] = 0.2f;
     memcpy(tableDef.position, at, sizeof(at));
@@ -555,7 +544,7 @@ TEST(WhatSleepersPressWith)
 /* The first strip is carried over the second, and laid down there. */
 TEST(PiecesThatTouch)
 {
-    static const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    static const float down[3] = { 0.0f, 0.0f, -9.81f };
     static const struct {
         float velocity[3];
         int ticks;
@@ -567,22 +556,21 @@ TEST(PiecesThatTouch)
     def.position[2] = 0.005f;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriObstacleDef floorDef = DefaultObstacle();
-    floorDef.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
     World_AddObstacle(host.world, &floorDef);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {
         for (int k = 0; k < ways[i].ticks; ++k) {
-            OK(kiriFrame_SetPieceVelocity(host.world, FrameAt(&host, sheet, 0), ways[i].velocity, none));
+            OK(kiriFrame_SetPieceVelocity(host.world, FrameAt(&host, sheet, 0), ways[i].velocity, noVector));
             Tick(&host);
         }
     }
-    OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 2))); /* so that the last one touches none */
+    OK(kiriFrame_DestroyPiece(host.world, FrameAt(&host, sheet, 2))); /* so that the last one touches noVector */
     OK(kiriWorld_SetGravity(host.world, down));
     uint32_t both = Bit(&host, sheet, 0) | Bit(&host, sheet, 1), awake = 15;
     int together = 0;
     for (int k = 0; k < 900 && (awake & both) != 0; ++k) {
         const float push[3] = { k % 2 == 0 ? 0.3f : -0.3f, 0.0f, 0.0f };
-        OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 3), push, none));
+        OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 3), push, noVector));
         Tick(&host);
         awake = Awake(&host, sheet);
         together += (awake & both) == both;
@@ -592,7 +580,7 @@ TEST(PiecesThatTouch)
     double above = PieceOf(&host, sheet, StripAt(&host, sheet, 0)).center[2];
     assert_true(above > 0.01 && above < 0.03);
     /* What wakes one of them wakes the other. */
-    OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 1), (const float[3]){ 0.0f, 0.0f, 1e-3f }, none));
+    OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 1), (const float[3]){ 0.0f, 0.0f, 1e-3f }, noVector));
     Tick(&host);
     Tick(&host);
     assert_int_equal(Awake(&host, sheet) & both, both);

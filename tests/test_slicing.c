@@ -45,9 +45,7 @@ static void HangBanner(Game* game, int i)
     def.touchesSheets = 1;
     def.crumbArea = 0.001f;
     def.sleepSpeed = 0.02f; /* soon: the game is short */
-    def.position[0] = 0.35f * (float)(i / ROWS);
-    def.position[1] = 0.05f * (float)(i % ROWS);
-    def.position[2] = 0.3f + 0.05f * (float)(i % ROWS);
+    Set3(def.position, 0.35f * (float)(i / ROWS), 0.05f * (float)(i % ROWS), 0.3f + 0.05f * (float)(i % ROWS));
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     game->banners[i] = Host_AddRectangle(&game->host, &def, 0.3f, 0.5f, 4, 6);
@@ -56,8 +54,7 @@ static void HangBanner(Game* game, int i)
 
 static void AddObstacles(Game* game)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
     kiriObstacle id = World_AddObstacle(game->host.world, &def);
     def.type = KIRI_OBSTACLE_BOX;
     def.size[0] = def.size[1] = 0.4f;

@@ -264,10 +264,9 @@ TEST(Seams)
         { "SeamIsEmpty", SeamIsEmpty },
     };
     static const float right[4] = { 1.0f, 0.0f, 1.0f, 1.0f }, left[4] = { 0.0f, 0.0f, 0.0f, 1.0f };
-    kiriSeamDef seam;
     Host_Start(&sewn);
     kiriSheetDef def = Host_SmallDef();
-    kiriDefaultSeamDef(&seam);
+    kiriSeamDef seam = DefaultSeam();
     seam.sheetA = Host_AddRectangle(&sewn, &def, 1.0f, 1.0f, 4, 4);
     def.position[0] = 1.0f;
     seam.sheetB = Host_AddRectangle(&sewn, &def, 1.0f, 1.0f, 4, 4);

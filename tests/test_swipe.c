@@ -69,13 +69,12 @@ static void Start(Curtain* curtain, int32_t motion, uint32_t seed)
         Host_Pin(&curtain->host, curtain->sheet, (float)k, 1.0f, (float)k, 0.0f, 1.0f);
     }
     if (motion == SWAYS) {
-        const float none[3] = { 0.0f, 0.0f, 0.0f };
         const float push[3] = { (float)Uniform(curtain, -0.05, 0.05), (float)Uniform(curtain, -0.3, 0.3), 0.0f };
         kiriFrame frames[64];
         int32_t count = World_GetFrames(curtain->host.world, curtain->sheet, frames, 64);
         for (int32_t i = 0; i < 10; ++i) {
-            OK(kiriFrame_ApplyForce(curtain->host.world, frames[0], push, none));
-            OK(kiriFrame_ApplyForce(curtain->host.world, frames[count / 2], push, none));
+            OK(kiriFrame_ApplyForce(curtain->host.world, frames[0], push, noVector));
+            OK(kiriFrame_ApplyForce(curtain->host.world, frames[count / 2], push, noVector));
             Tick(curtain);
         }
     }

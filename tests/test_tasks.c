@@ -95,8 +95,7 @@ static void Team_Stop(Team* team)
 static kiriObstacle AddBody(Team* team, int32_t type, const float position[3], float mass, uint32_t body)
 {
     kiriObstacle obstacle = 0;
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
+    kiriObstacleDef def = ObstacleOf(type);
     def.radius = 0.2f;
     memcpy(def.position, position, sizeof(def.position));
     def.mass = mass;
@@ -111,9 +110,7 @@ static kiriObstacle AddBody(Team* team, int32_t type, const float position[3], f
 static kiriSheet AddSheet(Team* team, float x, float y, float z, int32_t squares)
 {
     kiriSheetDef def = Host_SmallDef();
-    def.position[0] = x;
-    def.position[1] = y;
-    def.position[2] = z;
+    Set3(def.position, x, y, z);
     def.touchesSheets = 1;
     return Host_AddRectangle(&team->host, &def, 1.0f, 1.0f, squares, squares);
 }
@@ -122,15 +119,14 @@ static kiriSheet AddSheet(Team* team, float x, float y, float z, int32_t squares
    ball; a sheet that hangs on a ball, which lies on another sheet. */
 static void Build(Team* team)
 {
-    static const float floor[3] = { 0.0f, 0.0f, 0.0f }, first[3] = { 1.2f, 0.5f, 0.3f },
-                       second[3] = { 4.2f, 0.5f, 0.3f }, third[3] = { 5.4f, 0.5f, 0.3f },
-                       fourth[3] = { 7.5f, 0.5f, 0.6f };
+    static const float first[3] = { 1.2f, 0.5f, 0.3f }, second[3] = { 4.2f, 0.5f, 0.3f },
+                       third[3] = { 5.4f, 0.5f, 0.3f }, fourth[3] = { 7.5f, 0.5f, 0.6f };
     static const float spots[SHEETS][3] = {
         { 0.15f, 0.0f, 0.52f }, { 4.0f, 0.0f, 0.52f }, { 1.15f, 0.0f, 0.53f },
         { 3.0f, 0.0f, 0.52f },  { 5.2f, 0.0f, 0.53f }, { 0.2f, 2.0f, 0.05f },
         { 0.25f, 2.05f, 0.1f }, { 7.0f, 0.0f, 0.35f }, { 7.5f, 0.5f, 0.9f },
     };
-    team->bodies[0] = AddBody(team, KIRI_OBSTACLE_PLANE, floor, 0.0f, 0);
+    team->bodies[0] = AddBody(team, KIRI_OBSTACLE_PLANE, noVector, 0.0f, 0);
     team->bodies[1] = AddBody(team, KIRI_OBSTACLE_SPHERE, first, 0.3f, 0);
     team->bodies[2] = AddBody(team, KIRI_OBSTACLE_SPHERE, second, 0.4f, 7);
     team->bodies[3] = AddBody(team, KIRI_OBSTACLE_SPHERE, third, 0.4f, 7);

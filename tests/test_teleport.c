@@ -51,8 +51,7 @@ static void AddPin(Scene* scene, float u, float v)
 
 static void AddBox(Scene* scene)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_BOX;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_BOX);
     def.size[0] = def.size[1] = def.size[2] = 0.1f;
     def.groups = 0;
     OK(kiriCreateObstacle(scene->host.world, &def, &scene->obstacle));
@@ -64,9 +63,7 @@ static void Start(Scene* scene, int kind, int model, int skinning)
     int32_t count;
     memset(scene, 0, sizeof(*scene));
     Host_Start(&scene->host);
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 12;
-    def.frameCount = 8;
+    kiriSheetDef def = SheetOf(12, 8);
     def.position[2] = 1.0f;
     def.model = model;
     def.skinning = skinning;
@@ -261,8 +258,7 @@ static void From(const Everything* all, float x, float y, float z, float place[3
 
 static kiriObstacle AddObstacle(Everything* all, int32_t type, float x, float y, float z)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = type;
+    kiriObstacleDef def = ObstacleOf(type);
     def.radius = 0.2f;
     From(all, x, y, z, def.position);
     return World_AddObstacle(all->host.world, &def);
@@ -273,9 +269,7 @@ enum { TOUCHES = 1, SMOOTH = 2, AFFINE = 4, SLEEPS = 8, PLANAR = 16 };
 
 static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 12;
-    def.frameCount = 6;
+    kiriSheetDef def = SheetOf(12, 6);
     def.collisionPoints = 8;
     def.touchesSheets = (how & TOUCHES) != 0;
     def.skinning = (how & SMOOTH) != 0 ? KIRI_SKINNING_SMOOTH : KIRI_SKINNING_LINEAR;
@@ -283,14 +277,12 @@ static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
     def.planar = (how & PLANAR) != 0;
     def.sleepSpeed = (how & SLEEPS) != 0 ? 0.5f : 0.0f;
     From(all, x, y, z, def.position);
-    kiriSheet sheet = World_AddRectangle(all->host.world, 1.0f, 1.0f, 10, 10, &def);
-    return sheet;
+    return World_AddRectangle(all->host.world, 1.0f, 1.0f, 10, 10, &def);
 }
 
 static void PinTo(Everything* all, kiriSheet sheet, float u, float v, float x, float y, float z, kiriObstacle obstacle)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     def.restPoint[0] = u;
     def.restPoint[1] = v;
     def.obstacle = obstacle;

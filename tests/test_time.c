@@ -63,8 +63,6 @@ static void Strip_Start(Strip* s, const StripDef* d, const float gravity[3])
 
 /* ---- Torques ----------------------------------------------------------------------------------------------------- */
 
-static const float None[3] = { 0.0f, 0.0f, 0.0f };
-
 /* The bending stiffness of the strip out of its plane, or in it, over the length between the outermost frames. */
 static double BendingStiffness(const StripDef* d)
 {
@@ -78,11 +76,11 @@ static double BendingStiffness(const StripDef* d)
 static double TipAngle(const StripDef* d, double angle, double hertz, double seconds)
 {
     Strip s;
-    Strip_Start(&s, d, None);
+    Strip_Start(&s, d, noVector);
     float moment = (float)(angle * BendingStiffness(d)), torque[3] = { 0.0f, 0.0f, 0.0f };
     torque[d->planar ? 2 : 1] = d->planar ? moment : -moment;
     for (int tick = 0; tick < (int)(seconds * hertz); ++tick) {
-        OK(kiriFrame_ApplyForce(s.host.world, s.frames[d->frames - 1], None, torque));
+        OK(kiriFrame_ApplyForce(s.host.world, s.frames[d->frames - 1], noVector, torque));
         OK(Host_Tick(&s.host, (float)(1.0 / hertz), 1));
     }
     kiriFrameState tip = World_FrameState(s.host.world, s.frames[d->frames - 1]);
@@ -132,9 +130,9 @@ TEST(TorqueAtRest)
         const StripDef d = { frames, KIRI_MODEL_LINKS, 0, 0.0f };
         const float torque[3] = { 0.0f, (float)(-0.5 * BendingStiffness(&d)), 0.0f };
         Strip s;
-        Strip_Start(&s, &d, None);
+        Strip_Start(&s, &d, noVector);
         for (int tick = 0; tick < 720; ++tick) {
-            OK(kiriFrame_ApplyForce(s.host.world, s.frames[frames - 1], None, torque));
+            OK(kiriFrame_ApplyForce(s.host.world, s.frames[frames - 1], noVector, torque));
             OK(Host_Tick(&s.host, 1.0f / 60.0f, 1));
             kiriProfile profile = World_Profile(s.host.world);
             assert_true(tick < 600 || profile.systemsSolved == 2);
@@ -159,8 +157,7 @@ typedef struct Swing {
 
 static void PinTop(Pendulum* p, int k)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     def.restPoint[0] = 0.001f;
     def.restPoint[1] = def.target[1] = k == 0 ? 0.001f : Width - 0.001f;
     def.target[2] = -def.restPoint[0];

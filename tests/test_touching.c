@@ -96,7 +96,6 @@ static void CutKirigami(Touching* t)
 
 static void Start(Touching* t, int layout, int way, uint32_t seed)
 {
-    kiriSheetDef def;
     kiriPin pin;
     memset(t, 0, sizeof(*t));
     Host_Start(&t->host);
@@ -107,7 +106,7 @@ static void Start(Touching* t, int layout, int way, uint32_t seed)
     const float gravity[3] = { 0.0f, way == HANGING ? -(float)g : 0.0f, way == ON_A_FLOOR ? -(float)g : 0.0f };
     const float falling[3] = { 0.0f, 0.0f, -(float)g };
     OK(kiriWorld_SetGravity(t->host.world, way == FREE ? falling : gravity));
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriGetMaterial(seed % 2 == 0 ? KIRI_MATERIAL_COTTON : KIRI_MATERIAL_PAPER, &def.material);
     def.frameCount = 9;
     def.touchesSheets = 1;
@@ -118,8 +117,7 @@ static void Start(Touching* t, int layout, int way, uint32_t seed)
                                (float[]){ (float)size, (float)size }, &pin));
     }
     if (way == ON_A_FLOOR) {
-        kiriObstacleDef floorDef = DefaultObstacle();
-        floorDef.type = KIRI_OBSTACLE_PLANE;
+        kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
         World_AddObstacle(t->host.world, &floorDef);
     }
     OK(Host_Tick(&t->host, dt, 1));
@@ -234,7 +232,6 @@ TEST(SideBySideRests)
 /* Two sheets without gravity: one meets the other at 1 m/s. The second one has `width`, and is `off` aside. */
 static void Meet(double off, double width, bool isUpwards)
 {
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float velocity[3] = { 0.0f, 0.0f, isUpwards ? 1.0f : -1.0f };
     kiriSheet sheets[2];
     double first = 0.0, due = 0.0;
@@ -254,7 +251,7 @@ static void Meet(double off, double width, bool isUpwards)
         float side = i == 0 ? 0.2f : (float)width;
         sheets[i] = Host_AddRectangle(&host, &def, side, side, 16, 16);
     }
-    OK(kiriSheet_SetVelocity(host.world, sheets[isUpwards ? 0 : 1], velocity, none));
+    OK(kiriSheet_SetVelocity(host.world, sheets[isUpwards ? 0 : 1], velocity, noVector));
     for (int tick = 0; tick < 60; ++tick) {
         OK(Host_Tick(&host, dt, 2));
         kiriTotals a = Host_Totals(&host, sheets[0]), b = Host_Totals(&host, sheets[1]);
@@ -294,8 +291,7 @@ TEST(ScarceMemory)
             def.position[2] = 0.01f * (float)(i + 1);
             t.sheet = Host_AddRectangle(&t.host, &def, 0.2f, 0.2f, 8, 8);
         }
-        kiriObstacleDef floorDef = DefaultObstacle();
-        floorDef.type = KIRI_OBSTACLE_PLANE;
+        kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
         World_AddObstacle(t.host.world, &floorDef);
         for (int tick = 0; tick < 240 && awake; ++tick) {
             t.host.failEvery = tick < 40 ? every : 0;

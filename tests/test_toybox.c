@@ -56,9 +56,7 @@ static void AddBody(Box* box, int i)
     for (int k = 0; k < 3; ++k) {
         def.size[k] = Draw(box, 0.08, 0.3);
     }
-    def.position[0] = Draw(box, -0.8, 0.8);
-    def.position[1] = Draw(box, -0.8, 0.8);
-    def.position[2] = Draw(box, 0.0, 0.15);
+    Set3(def.position, Draw(box, -0.8, 0.8), Draw(box, -0.8, 0.8), Draw(box, 0.0, 0.15));
     DrawRotation(box, def.rotation);
     World_AddObstacle(box->host.world, &def);
 }
@@ -71,9 +69,7 @@ static void DropSheet(Box* box)
     DrawRotation(box, rotation);
     memcpy(def.axisU, &rotation[0], sizeof(def.axisU));
     memcpy(def.axisV, &rotation[3], sizeof(def.axisV));
-    def.position[0] = Draw(box, -0.6, 0.6);
-    def.position[1] = Draw(box, -0.6, 0.6);
-    def.position[2] = Draw(box, 0.9, 1.2);
+    Set3(def.position, Draw(box, -0.6, 0.6), Draw(box, -0.6, 0.6), Draw(box, 0.9, 1.2));
     def.gridResolution = 16;
     def.frameCount = 9;
     def.maxFrames = 25;

@@ -15,9 +15,7 @@ static void CutDice(Host* host, kiriSheet sheet)
 
 static kiriSheet AddSheet(Host* host, const float position[3], int32_t skinning, int32_t frames, int32_t squares)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 28;
-    def.frameCount = frames;
+    kiriSheetDef def = SheetOf(28, frames);
     def.maxFrames = 1000;
     def.rigidArea = 1.0f;
     def.material.airDamping = 0.0f;
@@ -166,8 +164,7 @@ TEST(SheetsTakeTurns)
 
 static kiriObstacle AddFloor(Host* host)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_PLANE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
     def.position[2] = -0.05f;
     return World_AddObstacle(host->world, &def);
 }

@@ -74,9 +74,7 @@ typedef struct Case {
 
 static kiriSheetDef DefOf(const Case* c)
 {
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = c->grid;
-    def.frameCount = c->frames;
+    kiriSheetDef def = SheetOf(c->grid, c->frames);
     def.frameLength = 0.3f;
     def.maxFrames = c->frames + 12;
     def.collisionPoints = 40;

@@ -25,14 +25,13 @@ static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
     enum { COUNT = 25 };
     float circle[2 * COUNT];
     const float slit[4] = { 0.1f, 0.1f, 0.9f, 0.17f }, next[2] = { 0.95f, 0.3f };
-    kiriPinDef pinDef;
     Host_Start(host);
     kiriSheetDef def = Host_SmallDef();
     def.model = model;
     def.frameCount = frames > 0 ? frames : def.frameCount;
     def.framePoints = frames > 0 ? NULL : def.framePoints;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 7, 7);
-    kiriDefaultPinDef(&pinDef);
+    kiriPinDef pinDef = DefaultPin();
     pinDef.restPoint[0] = pinDef.restPoint[1] = 0.93f;
     World_AddPin(host->world, sheet, &pinDef);
     for (int i = 0; i < COUNT; ++i) {

@@ -45,9 +45,7 @@ static void Start(Host* host, uint32_t run)
     host->every = 16;
     for (int32_t sheets = 1 + (int32_t)(run % 2); sheets > 0; --sheets) {
         int32_t squares = run % 8 == 7 ? 72 : 6 + (int32_t)(Random(&seed) % 14);
-        kiriSheetDef def = DefaultSheet();
-        def.gridResolution = 8 + (int32_t)(Random(&seed) % 16);
-        def.frameCount = 3 + (int32_t)(Random(&seed) % 5);
+        kiriSheetDef def = SheetOf(8 + (int32_t)(Random(&seed) % 16), 3 + (int32_t)(Random(&seed) % 5));
         def.maxFrames = 64;
         def.collisionPoints = run % 3 == 0 ? 20 : 0;
         def.sleepSpeed = run % 4 == 0 ? def.sleepSpeed : 0.0f;
@@ -163,9 +161,7 @@ static void RunStarved(int32_t squares, int32_t from, int64_t request)
     kiriBudget budget = { 0, 0, 60, 0 };
     START_HOST(host);
     host.every = 16;
-    kiriSheetDef def = DefaultSheet();
-    def.gridResolution = 24;
-    def.frameCount = 3;
+    kiriSheetDef def = SheetOf(24, 3);
     def.maxFrames = 8;
     sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, squares, squares);
     Host_Cut(&host, sheet, (float[]){ -0.1f, 0.45f, 1.1f, 0.55f }, 2);

@@ -122,9 +122,7 @@ TEST(EasedWeightsFollowLinearOnes)
         START_HOST(host);
         for (int k = 0; k < 2; ++k) {
             uint32_t cuts = random;
-            kiriSheetDef def = DefaultSheet();
-            def.gridResolution = 10 + (int32_t)seed;
-            def.frameCount = FRAMES_OF_RANDOM;
+            kiriSheetDef def = SheetOf(10 + (int32_t)seed, FRAMES_OF_RANDOM);
             def.paper.linearWeights = k;
             sheets[k] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 12, 12);
             for (int i = 0; i < 4; ++i) {
@@ -209,9 +207,7 @@ TEST(SurfaceIsTheBlend)
     for (uint32_t seed = 1; seed <= 8; ++seed) {
         uint32_t random = 2654435761u * seed;
         START_HOST(host);
-        kiriSheetDef def = DefaultSheet();
-        def.gridResolution = 12;
-        def.frameCount = FRAMES_OF_RANDOM;
+        kiriSheetDef def = SheetOf(12, FRAMES_OF_RANDOM);
         def.model = seed % 3 == 2 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
         def.fadeTime = 0.0f;
         def.material.detail = 0;
@@ -259,9 +255,7 @@ TEST(FramesAreSpread)
     for (int k = 0; k < 5; ++k) {
         kiriFrame frames[MOST];
         START_HOST(host);
-        kiriSheetDef def = DefaultSheet();
-        def.gridResolution = 48;
-        def.frameCount = counts[k];
+        kiriSheetDef def = SheetOf(48, counts[k]);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.7f, 8, 8);
         int32_t count = World_GetFrames(host.world, sheet, frames, MOST);
         assert_int_equal(count, counts[k]);

@@ -68,12 +68,11 @@ static void PrintKiri(const kiriMaterial* material, int32_t frames)
 {
     LatticeDef latticeDef = { 2.0 * RADIUS, 2.0 * RADIUS, 2.0 * RADIUS / SQUARES, RADIUS, HOLE, NULL, 0, 0 };
     SCOPED(Lattice, l, Lattice_Free);
-    kiriWorldDef worldDef;
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriPin pin;
     kiriSheetDef def = DefaultSheet();
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     Require(Lattice_Make(&l, &latticeDef) && kiriCreateWorld(&worldDef, &world) == KIRI_OK, "no memory");
     def.restPositions = l.rest;
     def.vertexCount = l.vertexCount;

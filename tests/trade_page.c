@@ -140,8 +140,7 @@ static void Hold(kiriWorld* world, kiriSheet sheet, const Scene* scene)
     kiriPin pin;
     const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, (float)scene->width };
     for (int k = 0; k < 2 && scene->byCorners; ++k) {
-        kiriPinDef def;
-        kiriDefaultPinDef(&def);
+        kiriPinDef def = DefaultPin();
         def.restPoint[1] = def.target[1] = k == 0 ? from[1] : to[1];
         Require(kiriCreatePin(world, sheet, &def, &pin) == KIRI_OK, "no pin");
     }
@@ -155,14 +154,13 @@ static double RunKiri(const Scene* scene, const kiriMaterial* material, const Re
     LatticeDef latticeDef = DefOf(scene, scene->length / 40.0);
     Lattice l;
     Samples samples;
-    kiriWorldDef worldDef;
     kiriWorld* world;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     double seconds = 0.0;
     Require(Lattice_Make(&l, &latticeDef), "no memory");
     FindSamples(scene, &l, &samples);
-    kiriDefaultWorldDef(&worldDef);
+    kiriWorldDef worldDef = DefaultWorld();
     worldDef.clock = ProcessorTime;
     Require(kiriCreateWorld(&worldDef, &world) == KIRI_OK, "no world");
     def.restPositions = l.rest;

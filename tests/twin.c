@@ -24,8 +24,7 @@ static kiriSheet MakeSheet(kiriWorld* world)
 
 static void Pin(kiriWorld* world, kiriSheet sheet, float u, float v)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
+    kiriPinDef def = DefaultPin();
     def.restPoint[0] = def.target[0] = u;
     def.restPoint[1] = def.target[1] = v;
     def.target[2] = 1.0f;
@@ -35,12 +34,9 @@ static void Pin(kiriWorld* world, kiriSheet sheet, float u, float v)
 
 static void AddBall(kiriWorld* world)
 {
-    kiriObstacleDef def = DefaultObstacle();
-    def.type = KIRI_OBSTACLE_SPHERE;
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_SPHERE);
     def.radius = 0.25f;
-    def.position[0] = 0.5f;
-    def.position[1] = 0.5f;
-    def.position[2] = 0.5f;
+    Set3(def.position, 0.5f, 0.5f, 0.5f);
     kiriObstacle ball;
     kiriCreateObstacle(world, &def, &ball);
 }
@@ -101,8 +97,7 @@ static uint64_t Run(kiriWorld* world)
 
 int main(void)
 {
-    kiriWorldDef def;
-    kiriDefaultWorldDef(&def);
+    kiriWorldDef def = DefaultWorld();
     def.gravity[0] = 1.0f;
     kiriWorld* world;
     if (kiriCreateWorld(&def, &world) != KIRI_OK) {
