@@ -748,12 +748,12 @@ static void TurnSprings(const kiriYield* yield, const double* loss, const double
 
 /* Returns by how much tension stiffens a link against its normal gap. Without it a Gauss-Newton step swings taut cloth too
    far, and is cut short. It is the tension at the start of the step, or less: false stretch while frames turn does not
-   count. The first system of a step must turn frames freely; near contacts, heavy bodies would fall through the sheet. */
+   count. The first system of a step must turn frames freely; not near contacts, where it would stretch links instead. */
 static double TautnessOf(const kiriSolver* solver, const kiriLink* link, const double* stiffness, const double* start,
                          const double* strain, const double* pulling)
 {
     double now = pulling[KIRI_STRETCH], least = kiriMin(start[KIRI_STRETCH] - strain[KIRI_STRETCH] + now, now);
-    bool isTaut = solver->search.solved > 0 && !solver->touch.isNear && link->fold == 0 && least > 0.0;
+    bool isTaut = (solver->search.solved > 0 || solver->touch.isNear) && link->fold == 0 && least > 0.0;
     return isTaut ? KIRI_TAUTNESS * (stiffness[KIRI_STRETCH] * least) / link->length : 0.0;
 }
 
