@@ -222,6 +222,23 @@ TEST(HighPileRests)
     assert_int_equal(Crossing_Measure(host.world, sheets, HIGH).crossing, 0);
 }
 
+/* At rest the pushes of the last step are right: the first system of a step changes nothing, so there is no second one. */
+TEST(PileAtRestTakesOneSystem)
+{
+    HOST(host);
+    kiriSheet sheets[PILE];
+    int32_t substeps = 2;
+    StartPile(&host, sheets);
+    for (int i = 0; i < PILE; ++i) {
+        kiriSheetSettings settings = World_Settings(host.world, sheets[i]);
+        settings.sleepSpeed = 0.0f;
+        OK(kiriSheet_SetSettings(host.world, sheets[i], &settings));
+    }
+    Host_Ticks(&host, 240, dt, substeps);
+    kiriProfile profile = World_Profile(host.world);
+    assert_int_equal(profile.systemsSolved, substeps);
+}
+
 TEST(NeverCrossOnTheirWay)
 {
     HOST(host);

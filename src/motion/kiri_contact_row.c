@@ -310,9 +310,8 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 #define FOLD_STIFFNESS 3e2  /* the same for two places of one body. It does not grow, so a fold gains no energy */
 #define SOFT_SHARE 0.2     /* of the reach: d */
 #define SOFT_GROWTH 30.0   /* limit of the growth of the stiffness in a step, if a point is deeper than its reach */
-#define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is rejected */
-#define CHANGED 0.05      /* of the largest push: a larger change of a mutual push needs another system, */
-#define EARLY_MUTUAL 3    /* if fewer were solved */
+#define UNSETTLED 0.05    /* of the largest push: a larger pull, or a larger change of a mutual push, needs another system; */
+#define EARLY_MUTUAL 3    /* a change only if fewer were solved */
 
 /* Return the push at a depth (N), its derivative (N/m) and its integral (J). */
 static double PushAt(const kiriContactStep* step, double p)
@@ -339,19 +338,19 @@ static double DepthOfPush(const kiriContactStep* step, double push)
     return push < 0.5 * k * d ? kiriRoot(2.0 * push * d / k) : push / k + 0.5 * d;
 }
 
-/* Sets the stiffness: half of the reach stops free motion. Expects the push of the last step, or what stops free
-   motion. */
-static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double stopDepth)
+/* Sets the stiffness: half of the reach stops the motion that goes on. `depth`: its depth. Expects the push of the last
+   step, or what stops that motion. */
+static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double depth)
 {
     const kiriContactRow* row = step->row;
     double part = solver->stepping.part, inertia = row->mass / (part * part);
     step->soft = SOFT_SHARE * row->reach;
     double least = row->isFold ? FOLD_STIFFNESS : SOFT_STIFFNESS;
-    step->stiffness = kiriMax(2.0 * inertia * stopDepth / row->reach, least * inertia);
+    step->stiffness = kiriMax(2.0 * inertia * depth / row->reach, least * inertia);
     step->mostStiffness = row->isFold ? step->stiffness : SOFT_GROWTH * step->stiffness;
     step->grip = GRIP * inertia;
     step->was = kiriVec3_Dot(row->normal, row->force);
-    step->known = step->was > 0.0 ? step->was : kiriMax(inertia * stopDepth, 0.0);
+    step->known = step->was > 0.0 ? step->was : kiriMax(inertia * depth, 0.0);
     step->limit = row->friction * step->known;
 }
 
@@ -403,7 +402,8 @@ static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
     double push = step->pull + step->spring * sinks;
     slides = step->sticks ? slides : Beside(slides, step->direction);
     kiriVec3 drag = kiriVec3_AddScaled(step->drags, -step->tie, slides);
-    step->change = part * fabs(push - step->push);
+    step->change = part * fabs(push - step->known);
+    step->known = push;
     step->push = (1.0 - part) * step->push + part * push;
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
 }
@@ -431,7 +431,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
     if (IsSoft(row)) {
-        GuessSoft(solver, step, step->plane - kiriVec3_Dot(row->normal, predicted));
+        GuessSoft(solver, step, -gap);
         return;
     }
     step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
@@ -832,7 +832,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
     const kiriContactRow* row = step->row;
     if (IsSoft(row)) {
         bool isEarly = kiriContact_IsMutual(step) && solver->search.solved < EARLY_MUTUAL;
-        return step->push < -PULLING * mostPush || (isEarly && step->change > CHANGED * mostPush);
+        return kiriMax(-step->push, isEarly ? step->change : 0.0) > UNSETTLED * mostPush;
     }
     kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), slide = SlideAt(step, point);
     double inertia = InertiaOf(solver, step), tolerance = PUSH_TOLERANCE * mostPush, depth = DepthAt(step, point);

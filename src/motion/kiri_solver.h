@@ -401,7 +401,7 @@ typedef struct kiriContactStep {
     bool isActive, sticks;
     double limit;           /* N: friction limit while slipping */
     kiriVec3 direction;     /* of the slide: unit or zero */
-    double known;           /* N: largest push in any system so far */
+    double known;           /* N: largest push in any system so far; of a soft contact, the expected or last one */
     double stiffness, grip; /* N/m: springs on depth and slide */
     double give;            /* m/N: compliance of the obstacle in the step */
     double shared;          /* m/N: the same while the point is held up after the last system */

@@ -1128,10 +1128,12 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
         }
         ++done;
         bool isBad = false;
-        if (done >= iterations && !solver->search.mayFlow && solver->yields) {
+        bool isAtRest = solver->touch.isNear && solver->search.promise <= WORTHWHILE * solver->search.now.objective;
+        isLeft = done < iterations && !isAtRest;
+        if (!isLeft && !solver->search.mayFlow && solver->yields) {
             BeginFlow(solver, system, done);
         }
-        if (done >= iterations) {
+        if (!isLeft) {
             kiriSolver_FindGains(solver, system);
             bool isSuspect = IsSuspect(solver);
             isBad = isSuspect && solver->search.suspects > 1;
