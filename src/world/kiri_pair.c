@@ -128,10 +128,16 @@ static bool TouchFromAbove(const kiriPairs* pairs, const kiriTouchingPair* pair,
     const kiriBody *upper = &pairs->bodies.data[near->body], *lower = &pairs->bodies.data[near->other];
     touch->upper = VertexPlace(upper->sheet, near->vertex);
     touch->lower = TrianglePlace(lower->sheet, near->triangle, near->share);
-    touch->key = KeyOfPair(pair, near);
     touch->normal = kiriVec3_Scale(pair->side, near->normal);
     touch->gap = pair->side * near->height;
     return true;
+}
+
+/* Inside of the lower one the probes of the upper one feel it as well, where they are as near to each other. */
+static bool IsProbeNeeded(const kiriSheetData* lower, const kiriSheetData* upper, int32_t vertex)
+{
+    return lower->probes.isBorder.data[vertex] ||
+           lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
 /* Makes a touch of a probe of the lower body below a triangle of the upper one. */
@@ -144,19 +150,9 @@ static bool TouchFromBelow(const kiriPairs* pairs, const kiriTouchingPair* pair,
     double sign = along >= 0.0 ? 1.0 : -1.0;
     touch->upper = TrianglePlace(upper->sheet, near->triangle, near->share);
     touch->lower = VertexPlace(lower->sheet, near->vertex);
-    touch->key = KeyOfPair(pair, near);
     touch->normal = kiriVec3_Scale(sign, near->normal);
     touch->gap = -sign * near->height;
-    return fabs(along) > ALONG;
-}
-
-/* Inside of the lower one the probes of the upper one feel it as well, where they are as near to each other. */
-static bool IsPairNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near)
-{
-    const kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
-    const kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
-    return near->body == pair->bodies[0] || lower->probes.isBorder.data[near->vertex] ||
-           lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
+    return fabs(along) > ALONG && IsProbeNeeded(lower->sheet, upper->sheet, near->vertex);
 }
 
 /* Returns the largest approach of the two in the tick, m. The lower piece may be stopped by something below it. */
@@ -249,13 +245,11 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         const kiriNear* near = &pairs->nears.data[i];
         kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
-        if (!IsPairNeeded(pairs, pair, near) ||
-            !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
+        if (!(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch)) ||
+            AreSewn(&touch.upper, &touch.lower, SEWN_REACH * distance)) {
             continue;
         }
-        if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * distance)) {
-            continue;
-        }
+        touch.key = KeyOfPair(pair, near);
         touch.distance = distance;
         touch.isFold = false;
         touch.velocity = PlaceVelocity(&touch.lower);
@@ -667,21 +661,37 @@ static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, do
     return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }
 
-/* Finds the near places of a body's probes on another body. Fails on out of memory. */
+static uint64_t NameOf(kiriFrame a, kiriFrame b)
+{
+    return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
+}
+
+/* Returns the pair of two bodies in the last tick, or null. */
+static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiriFrame b)
+{
+    uint64_t name = NameOf(a, b);
+    int32_t low;
+    KIRI_SEARCH(low, 0, pairs->pairs.count,
+                NameOf(pairs->pairs.data[middle].upper, pairs->pairs.data[middle].lower) < name);
+    const kiriTouchingPair* found = &pairs->pairs.data[low];
+    return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
+}
+
+/* Finds the near places of a body's probes on another body. A body that was the lower one in the last tick needs
+   some probes alone. Fails on out of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
     kiriPairs* pairs = &world->pairs;
     const kiriBody *a = &pairs->bodies.data[body], *b = &pairs->bodies.data[other];
     kiriIndexSpan probes = ProbesOf(a);
     kiriBox box = Widened(&b->box, reach);
-    bool ok = true;
+    const kiriTouchingPair* old = FindOld(pairs, a->id, b->id);
+    bool isLower = old != NULL && old->lower == a->id, ok = true;
     KIRI_TIMES_WHILE(ok, i, probes.count) {
         kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
-        kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
-        if (!Holds(&box, x)) {
-            continue;
-        }
-        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
+        if (Holds(&box, kiriSurface_At(&a->sheet->seen.surface, near.vertex)) &&
+            (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex)) &&
+            FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
             ok = kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }
@@ -740,22 +750,6 @@ static bool IsUpper(const kiriWorld* world, const kiriBody* a, const kiriBody* b
         return b->isHeld;
     }
     return a->mass < b->mass || (a->mass == b->mass && a->id < b->id);
-}
-
-static uint64_t NameOf(kiriFrame a, kiriFrame b)
-{
-    return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
-}
-
-/* Returns the pair of two bodies in the last tick, or null. */
-static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiriFrame b)
-{
-    uint64_t name = NameOf(a, b);
-    int32_t low;
-    KIRI_SEARCH(low, 0, pairs->pairs.count,
-                NameOf(pairs->pairs.data[middle].upper, pairs->pairs.data[middle].lower) < name);
-    const kiriTouchingPair* found = &pairs->pairs.data[low];
-    return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
 /* Returns true if the previous lower body has become the upper one. That depends on its own turn, not on the position
