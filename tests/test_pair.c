@@ -222,7 +222,7 @@ TEST(HighPileRests)
     assert_int_equal(Crossing_Measure(host.world, sheets, HIGH).crossing, 0);
 }
 
-/* At rest the pushes of the last step are right: the first system of a step changes nothing, so there is no second one. */
+/* At rest the pushes of the last step are right: the first system of a step changes nothing, and is the last. */
 TEST(PileAtRestTakesOneSystem)
 {
     HOST(host);
