@@ -116,7 +116,6 @@ KIRI_TABLE(PlacerWorkTable, kiriPlacerWork, {
     KIRI_PART(ends, FieldTable),
     KIRI_PART(fresh, FieldTable),
     KIRI_ARRAYS(sampled, holds, marks, targets, blocks, seeds),
-    KIRI_DROPPED(winds),
 })
 
 KIRI_SHARED_TABLE(kiriPlacerTable, kiriPlacer, {

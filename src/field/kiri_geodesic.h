@@ -71,12 +71,6 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
 /* Continues a flood. An item of the quota is a cell settled. KIRI_FAILED: only kiriField_Clear helps. */
 kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
-/* Makes the whole flood that Start has prepared, without a limit, and with ways from all cells; as many items as cells
-   are settled. `cells` has all that the seeds reach, in the order of cells; they are settled in this order. KIRI_MORE,
-   and nothing is done: the ways wind too much, call Flood. KIRI_FAILED: no memory. */
-kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells,
-                            int32_t count);
-
 /* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */
 void kiriField_Reset(kiriField* field);
 

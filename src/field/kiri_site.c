@@ -428,23 +428,6 @@ static void LowerCell(PlacerJob* job, int32_t cell)
 
 /* ---- Relaxation: new sites go to the centroids of their regions, one site alone to the centroid of its part ------ */
 
-/* Floods from all new sites. A scan does it where it needs no quota, and the part is much of the sheet. */
-static kiriProgress FloodAllNew(PlacerJob* job)
-{
-    kiriPlacerWork* work = job->work;
-    const kiriIndices* settled = &work->fresh.settled;
-    int32_t count = job->placer->cells.count;
-    if (settled->count == 0 && !work->hasOld && !work->winds && count < job->quota->left &&
-        count >= job->grid->cells.count / 4) {
-        kiriProgress progress = kiriField_Scan(&work->fresh, job->memory, job->grid, job->placer->cells.data, count);
-        work->winds = progress == KIRI_MORE;
-        if (progress == KIRI_FAILED || (progress == KIRI_DONE && kiriQuota_Take(job->quota, settled->count))) {
-            return progress;
-        }
-    }
-    return Flood(job, &work->fresh, IsNearest);
-}
-
 /* Returns the target of the new site that a cell belongs to; null where it belongs to an old one. */
 static SiteTarget* TargetOf(PlacerJob* job, int32_t cell)
 {
@@ -615,7 +598,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case LOWER:
         return Next(job, VisitCells(job, settled, LowerCell), SAMPLE);
     case FLOOD_ALL_NEW:
-        return Next(job, FloodAllNew(job), SUM);
+        return Next(job, Flood(job, &work->fresh, IsNearest), SUM);
     case SUM:
     case SUM_PART:
         progress = VisitCells(job, work->stage == SUM ? settled : part, SumCell);
@@ -723,7 +706,6 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     }
     work->targets.data[0] = (SiteTarget){ .cell = KIRI_NONE };
     work->cursor = work->round = 0;
-    work->winds = false;
     work->left = count;
     work->due = 0;
     PlacerStage first = count == 0 ? PLACER_RESTS : count == 1 && placer->oldCount == 0 ? SUM_PART : FLOOD_ENDS;

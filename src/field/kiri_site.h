@@ -140,7 +140,6 @@ struct kiriPlacerWork {
     int32_t left;   /* sites still to sample */
     int32_t lost;   /* targets that AIM_NEAR has not found */
     int32_t round;
-    bool winds; /* scans do not help: ways wind too much, or memory ran out. Not saved: results are the same without */
 };
 
 enum { KIRI_CELL_FREE = KIRI_NONE };
