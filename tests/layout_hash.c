@@ -172,12 +172,12 @@ static void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 }
 
 /* A sum, for a cell's faces come in no order. */
-static uint64_t HashFaces(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+static uint64_t HashFaces(const kiriGrid* grid, int32_t cell)
 {
     uint64_t sum = 0;
     for (int32_t f = grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
         const kiriFace* face = &grid->faces.data[f];
-        kiriStretch s = kiriGrid_Stretch(grid, mesh, f);
+        kiriStretch s = kiriGrid_Stretch(grid, f);
         uint64_t hash = KIRI_HASH_START;
         HashPlace(&hash, grid, face->cell[0]);
         HashPlace(&hash, grid, face->cell[1]);
@@ -203,9 +203,9 @@ static void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell
 
 static void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t cell)
 {
-    uint64_t faces = HashFaces(&sheet->grid, &sheet->mesh, cell);
+    uint64_t faces = HashFaces(&sheet->grid, cell);
     HashPlace(hash, &sheet->grid, cell);
-    kiriMoments material = kiriGrid_Material(&sheet->grid, &sheet->mesh, cell);
+    kiriMoments material = kiriGrid_Material(&sheet->grid, cell);
     HashBytes(hash, &material, sizeof(kiriMoments));
     HashSteps(hash, &sheet->grid, cell);
     HashBytes(hash, &faces, sizeof(faces));

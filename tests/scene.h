@@ -141,7 +141,7 @@ static inline void Scene_UpdateGrid(Scene* scene)
 {
     kiriQuota quota = { INT64_MAX, 0, 0, false };
     kiriMesh_Commit(&scene->mesh);
-    assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
+    assert_int_equal(kiriGrid_Update(&scene->grid, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&scene->mesh.squares);
     assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count, KIRI_FIELD_OWNERS));
 }
@@ -204,12 +204,12 @@ static inline int32_t Scene_Cell(const Scene* scene, double u, double v)
     kiriLatticePoint p = kiriMesh_Snap(&scene->mesh, kiriVec2_Make(u, v));
     int32_t triangle = kiriMesh_Locate(&scene->mesh, p);
     assert_int_not_equal(triangle, KIRI_NONE);
-    return kiriGrid_CellOf(&scene->grid, &scene->mesh, triangle, p);
+    return kiriGrid_CellOf(&scene->grid, triangle, p);
 }
 
 static inline kiriSite Scene_MiddleOf(const Scene* scene, int32_t cell)
 {
-    kiriSite site = { kiriGrid_Middle(&scene->grid, &scene->mesh, cell), cell };
+    kiriSite site = { kiriGrid_Middle(&scene->grid, cell), cell };
     return site;
 }
 

@@ -17,12 +17,10 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
     }
     memset(l, 0, sizeof(*l));
-    assert_int_equal(
-        kiriRegions_Update(&l->regions, &scene->memory, &scene->grid, &scene->mesh, sites, count, moves, count, &quota),
-        KIRI_DONE);
-    assert_int_equal(
-        kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &scene->mesh, &l->regions, sites, count, &quota),
-        KIRI_DONE);
+    assert_int_equal(kiriRegions_Update(&l->regions, &scene->memory, &scene->grid, sites, count, moves, count, &quota),
+                     KIRI_DONE);
+    assert_int_equal(kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &l->regions, sites, count, &quota),
+                     KIRI_DONE);
     assert_int_equal(l->made.links.count, 0);
     assert_int_equal(l->made.changed, l->made.next.count);
     kiriLinks_Commit(&l->made);
@@ -97,7 +95,7 @@ TEST(RandomSheetsAddUp)
         for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
             const kiriFace* face = &scene.grid.faces.data[f];
             int32_t a = OwnerOf(&links, face->cell[0]), b = OwnerOf(&links, face->cell[1]);
-            double full = kiriGrid_Stretch(&scene.grid, &scene.mesh, f).width, width = a < b ? full : -full;
+            double full = kiriGrid_Stretch(&scene.grid, f).width, width = a < b ? full : -full;
             if (a != b) {
                 kiriVec2* sum = &sums[a < b ? a * n + b : b * n + a];
                 sum->x += kiriFace_Axis(face) == 0 ? width : 0.0;
@@ -407,7 +405,7 @@ static void Plain_Look(Plain* p)
 {
     Scene_BuildGrid(&p->scene);
     p->owner = calloc((size_t)p->scene.grid.cells.count, sizeof(int32_t));
-    p->sight = (kiriSight){ &p->scene.grid, &p->scene.mesh, p->owner, &p->region, 1, &p->edges };
+    p->sight = (kiriSight){ &p->scene.grid, p->owner, &p->region, 1, &p->edges };
     assert_true(kiriSightEdges_Start(&p->edges, &p->scene.mesh));
 }
 

@@ -295,7 +295,7 @@ static bool Check_Pins(Check* check, const kiriSheetData* sheet)
         REQUIRE(AreFinite3(pin->target) && (pin->stiffness > 0.0) == (pin->type == KIRI_PIN_POINT),
                 "pin %d has stiffness %g", i, pin->stiffness);
         if (IsSettled(sheet) && pin->type == KIRI_PIN_POINT) {
-            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, pin->at);
             int32_t owner = cell == KIRI_NONE ? KIRI_NONE : sheet->regions.field.owner.data[cell];
             REQUIRE(frame == owner, "pin %d holds frame %d and is in the region of %d", i, frame, owner);
         }
@@ -378,7 +378,7 @@ static bool Check_Points(Check* check, const kiriSheetData* sheet)
         const kiriSample* point = &sheet->points.data[i];
         REQUIRE(IsIndex(point->frame, sheet->frames.count), "point %d is of frame %d", i, point->frame);
         if (IsSettled(sheet)) {
-            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, point->at);
             REQUIRE(cell == point->cell, "point %d is in cell %d, not %d", i, cell, point->cell);
             REQUIRE(sheet->regions.field.owner.data[cell] == point->frame, "point %d is of frame %d, its cell of %d", i,
                     point->frame, sheet->regions.field.owner.data[cell]);

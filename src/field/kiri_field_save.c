@@ -29,13 +29,15 @@ KIRI_TABLE(GridChangesTable, kiriGridChanges, {
     KIRI_ARRAYS(made, gone, steps, material, edges),
 })
 
-KIRI_SHARED_TABLE(kiriGridTable, kiriGrid, {
-    KIRI_DERIVED,
-    KIRI_ARRAYS(cells, runs, steps, faces, materials, stretches, unusedMaterials, unusedStretches),
-    KIRI_ARRAYS(squareCell, nodeCell, vertexCell, whole),
-    KIRI_PART(changes, GridChangesTable),
-    KIRI_OWNED(work, GridWorkTable),
-})
+KIRI_SHARED_TABLE(kiriGridTable, kiriGrid,
+                  {
+                      KIRI_DROPPED(mesh),
+                      KIRI_DERIVED,
+                      KIRI_ARRAYS(cells, runs, steps, faces, materials, stretches, unusedMaterials, unusedStretches),
+                      KIRI_ARRAYS(squareCell, nodeCell, vertexCell, whole),
+                      KIRI_PART(changes, GridChangesTable),
+                      KIRI_OWNED(work, GridWorkTable),
+                  })
 
 /* ---- Regions and shape functions --------------------------------------------------------------------------------- */
 

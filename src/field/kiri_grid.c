@@ -73,14 +73,14 @@ static void RecordLink(kiriGrid* grid, kiriMemory* memory, const kiriFace* face)
 
 /* ---- What cells and faces cover ---------------------------------------------------------------------------------- */
 
-static kiriMoments MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static kiriMoments MaterialOfWhole(const kiriGrid* grid, int32_t square)
 {
     KIRI_ASSERT_HAS(grid->squareCell, square);
     double x = grid->side, area = x * x;
     kiriMoments about = {
         area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
     };
-    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
+    kiriVec2 corner = kiriMesh_Local(grid->mesh, kiriSquares_Corner(&grid->mesh->squares, square));
     return kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner));
 }
 
@@ -100,20 +100,20 @@ static int32_t StretchIndexOf(const kiriFace* face)
     return (face->kind >> 1) - 1;
 }
 
-kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+kiriMoments kiriGrid_Material(const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT_HAS(grid->cells, cell);
     const kiriCell* at = &grid->cells.data[cell];
-    return at->material == KIRI_NONE ? MaterialOfWhole(grid, mesh, at->square) : grid->materials.data[at->material];
+    return at->material == KIRI_NONE ? MaterialOfWhole(grid, at->square) : grid->materials.data[at->material];
 }
 
-kiriStretch kiriGrid_Stretch(const kiriGrid* grid, const kiriMeshData* mesh, int32_t face)
+kiriStretch kiriGrid_Stretch(const kiriGrid* grid, int32_t face)
 {
     KIRI_ASSERT(face >= 0 && face < grid->faces.count && grid->faces.data[face].cell[0] != KIRI_NONE);
     const kiriFace* at = &grid->faces.data[face];
-    return kiriFace_HasOwnStretch(at)
-               ? grid->stretches.data[StretchIndexOf(at)]
-               : StretchOfSide(mesh, grid->cells.data[at->cell[1]].square, kiriFace_Axis(at), 0.0, mesh->squares.side);
+    return kiriFace_HasOwnStretch(at) ? grid->stretches.data[StretchIndexOf(at)]
+                                      : StretchOfSide(grid->mesh, grid->cells.data[at->cell[1]].square,
+                                                      kiriFace_Axis(at), 0.0, grid->mesh->squares.side);
 }
 
 /* Takes an unused item of an array, or adds one; KIRI_NONE for memory. The list of unused ones has room for all. */
@@ -271,8 +271,9 @@ static bool IsNodeBefore(const void* nodes, int32_t a, int32_t b)
 
 /* Puts the triangles of a square into `entries`, in ascending order: so results do not depend on the order of the
    square's list. Lists have the latest triangles first. Reversed they are nearly in order. */
-static void CollectTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static void CollectTriangles(kiriGrid* grid, int32_t square)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
     if (!FlagSquare(grid, mesh->memory, square, SQUARE_COLLECTED)) {
@@ -316,17 +317,17 @@ static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t squa
 }
 
 /* Joins the triangles of a square: each set is a cell (algorithm 3). False for memory. */
-static bool JoinTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static bool JoinTriangles(kiriGrid* grid, int32_t square)
 {
     kiriGridWork* work = grid->work;
-    CollectTriangles(grid, mesh, square);
+    CollectTriangles(grid, square);
     kiriNodeRange range = work->ranges.data[square];
-    if (work->outOfMemory || !kiriArray_Resize(mesh->memory, &work->parent, range.end - range.first)) {
+    if (work->outOfMemory || !kiriArray_Resize(grid->mesh->memory, &work->parent, range.end - range.first)) {
         return false;
     }
     kiriUnion_Init(work->parent.data, work->parent.count);
     KIRI_FROM_TO(i, range.first, range.end) {
-        JoinEntry(work, mesh, square, i);
+        JoinEntry(work, grid->mesh, square, i);
     }
     work->debt += COST_OF_JOIN * (int64_t)work->parent.count;
     return true;
@@ -401,8 +402,9 @@ static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, 
 
 /* Finds the cells that a divided square should have, by lowest triangle, in `newCells`. Until they have indices
    `nodeCell` has their ranks in that list. False for memory. */
-static bool FindNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static bool FindNewCells(kiriGrid* grid, int32_t square)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     kiriNodeRange range = work->ranges.data[square];
     KIRI_ASSERT((work->squareFlags.data[square] & SQUARE_COLLECTED) != 0 && work->newCells.count == 0);
@@ -474,32 +476,33 @@ static bool StoreMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const k
 /* SetMaterial compares bytes. */
 typedef char MomentsHaveNoPadding[sizeof(kiriMoments) == 6 * sizeof(double) ? 1 : -1];
 
-static bool SetMaterial(kiriGrid* grid, const kiriMeshData* mesh, int32_t c, const kiriMoments* material)
+static bool SetMaterial(kiriGrid* grid, int32_t c, const kiriMoments* material)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, c));
-    kiriMaterialChange change = { c, kiriGrid_Material(grid, mesh, c) };
+    kiriMaterialChange change = { c, kiriGrid_Material(grid, c) };
     uint8_t* flags = &grid->work->cellFlags.data[c];
     if (memcmp(&change.was, material, sizeof(*material)) == 0) {
         return true;
     }
     if (grid->whole.data[grid->cells.data[c].square]) {
         DropMaterial(grid, c);
-    } else if (!StoreMaterial(grid, mesh->memory, c, material)) {
+    } else if (!StoreMaterial(grid, grid->mesh->memory, c, material)) {
         return false;
     }
     if ((*flags & (CELL_MADE | CELL_MATERIAL)) != 0) {
         return true;
     }
     *flags |= CELL_MATERIAL;
-    return kiriArray_Push(mesh->memory, &grid->changes.material, change);
+    return kiriArray_Push(grid->mesh->memory, &grid->changes.material, change);
 }
 
 /* Stores the material of a whole cell: without a square it no longer follows. */
-static bool RemoveCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
+static bool RemoveCell(kiriGrid* grid, int32_t c)
 {
+    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT(kiriGrid_IsCell(grid, c));
     kiriCell* cell = &grid->cells.data[c];
-    kiriMoments material = kiriGrid_Material(grid, mesh, c);
+    kiriMoments material = kiriGrid_Material(grid, c);
     if (!StoreMaterial(grid, mesh->memory, c, &material)) {
         return false;
     }
@@ -518,14 +521,14 @@ static bool RemoveCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
 }
 
 /* Replaces the old cells of the square by the new ones, in order. Adds or removes cells if their number changes. */
-static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static bool ReplaceCells(kiriGrid* grid, int32_t square)
 {
     KIRI_ASSERT_HAS(grid->squareCell, square);
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
     KIRI_EACH(kiriNewCell, made, grid->work->newCells) {
-        made->cell = old != KIRI_NONE ? old : AddCell(grid, mesh->memory, square);
-        if (made->cell == KIRI_NONE || !SetMaterial(grid, mesh, made->cell, &made->material)) {
+        made->cell = old != KIRI_NONE ? old : AddCell(grid, grid->mesh->memory, square);
+        if (made->cell == KIRI_NONE || !SetMaterial(grid, made->cell, &made->material)) {
             return false;
         }
         kiriCell* cell = &grid->cells.data[made->cell];
@@ -537,7 +540,7 @@ static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
     }
     while (old != KIRI_NONE) {
         int32_t next = grid->cells.data[old].next;
-        if (!RemoveCell(grid, mesh, old)) {
+        if (!RemoveCell(grid, old)) {
             return false;
         }
         old = next;
@@ -579,12 +582,12 @@ static bool IsSquareWhole(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
 }
 
 /* Gives all triangles of a whole square to its one cell. */
-static void FillWholeSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static void FillWholeSquare(kiriGrid* grid, int32_t square)
 {
     int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
     KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->cells.data[c].next == KIRI_NONE);
-    KIRI_EACH_NODE(n, &mesh->squares, square) {
-        lowest = kiriMin(mesh->squares.nodes.data[n].triangle, lowest);
+    KIRI_EACH_NODE(n, &grid->mesh->squares, square) {
+        lowest = kiriMin(grid->mesh->squares.nodes.data[n].triangle, lowest);
         grid->nodeCell.data[n] = c;
         grid->work->debt += COST_OF_NODE;
     }
@@ -593,8 +596,9 @@ static void FillWholeSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t sq
 
 /* Gives the triangles of a divided square their cells, and the vertices in it, which find their fan by a triangle. An
    edge may have changed that changes neither material nor faces: a slit that ends in the square, by its tip. */
-static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
+static void FillDividedSquare(kiriGrid* grid, int32_t square)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     kiriNodeRange range = work->ranges.data[square];
     KIRI_FROM_TO(i, range.first, range.end) {
@@ -616,8 +620,9 @@ static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
 }
 
 /* Makes the cells of a square. A square that stays whole keeps its cell, and nothing else changes. */
-static void MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void MakeCells(kiriGrid* grid, int32_t item)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
     KIRI_ASSERT_HAS(grid->whole, square);
@@ -625,21 +630,21 @@ static void MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
     grid->whole.data[square] = isWhole && wasWhole ? grid->whole.data[square] : isWhole;
     work->newCells.count = 0;
     if (isWhole && wasWhole) {
-        FillWholeSquare(grid, mesh, square);
+        FillWholeSquare(grid, square);
         return;
     }
     if (FlagSquare(grid, mesh->memory, square, SQUARE_FACES_DIRTY)) {
         AppendIndex(grid, mesh->memory, &work->facesDirty, square);
     }
-    const kiriNewCell whole = { KIRI_NONE, KIRI_NONE, MaterialOfWhole(grid, mesh, square) };
+    const kiriNewCell whole = { KIRI_NONE, KIRI_NONE, MaterialOfWhole(grid, square) };
     bool ok = isWhole ? kiriArray_Push(mesh->memory, &work->newCells, whole)
-                      : JoinTriangles(grid, mesh, square) && FindNewCells(grid, mesh, square);
-    if (!ok || !ReplaceCells(grid, mesh, square)) {
+                      : JoinTriangles(grid, square) && FindNewCells(grid, square);
+    if (!ok || !ReplaceCells(grid, square)) {
         work->outOfMemory = true;
     } else if (isWhole) {
-        FillWholeSquare(grid, mesh, square);
+        FillWholeSquare(grid, square);
     } else {
-        FillDividedSquare(grid, mesh, square);
+        FillDividedSquare(grid, square);
     }
 }
 
@@ -686,7 +691,7 @@ static void AddStretch(kiriStretch* sum, kiriStretch part)
 }
 
 /* Empties the faces on the lower side of a square along the axis, and keeps their stretches in `oldFaces`. */
-static void EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t axis)
+static void EmptyFaces(kiriGrid* grid, int32_t square, int32_t axis)
 {
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
@@ -694,9 +699,9 @@ static void EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square,
         KIRI_EACH_FACE(f, grid, c) {
             const kiriFace* face = &grid->faces.data[f];
             if (face->cell[1] == c && kiriFace_Axis(face) == axis) {
-                kiriOldFace old = { f, kiriGrid_Stretch(grid, mesh, f) };
-                kiriStretch* own = kiriGrid_OwnStretch(grid, mesh->memory, f);
-                if (own == NULL || !kiriArray_Push(mesh->memory, &work->oldFaces, old)) {
+                kiriOldFace old = { f, kiriGrid_Stretch(grid, f) };
+                kiriStretch* own = kiriGrid_OwnStretch(grid, grid->mesh->memory, f);
+                if (own == NULL || !kiriArray_Push(grid->mesh->memory, &work->oldFaces, old)) {
                     work->outOfMemory = true;
                     return;
                 }
@@ -707,16 +712,15 @@ static void EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square,
 }
 
 /* Adds to the face between two cells of a side whose faces were emptied. A null part: all of the side. */
-static void CoverFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32_t b, int32_t axis,
-                      const kiriStretch* part)
+static void CoverFace(kiriGrid* grid, int32_t a, int32_t b, int32_t axis, const kiriStretch* part)
 {
-    int32_t f = FaceBetween(grid, mesh->memory, a, b, axis);
+    int32_t f = FaceBetween(grid, grid->mesh->memory, a, b, axis);
     if (f != KIRI_NONE && part == NULL) {
         DropStretch(grid, f);
         return;
     }
     bool isNew = f != KIRI_NONE && !kiriFace_HasOwnStretch(&grid->faces.data[f]);
-    kiriStretch* sum = f != KIRI_NONE ? kiriGrid_OwnStretch(grid, mesh->memory, f) : NULL;
+    kiriStretch* sum = f != KIRI_NONE ? kiriGrid_OwnStretch(grid, grid->mesh->memory, f) : NULL;
     if (sum == NULL) {
         grid->work->outOfMemory = true;
         return;
@@ -729,8 +733,9 @@ static void CoverFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32
 
 /* Links the cells of a square to the cells of the square before it along the axis. A triangle with material in both
    squares covers a stretch of the side between them, because both squares together are convex. */
-static void CoverDividedSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int32_t axis)
+static void CoverDividedSide(kiriGrid* grid, int32_t before, int32_t square, int32_t axis)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     kiriNodeRange a = work->ranges.data[before], b = work->ranges.data[square];
     KIRI_ASSERT(work->outOfMemory || (a.end <= work->entries.count && b.end <= work->entries.count));
@@ -738,8 +743,8 @@ static void CoverDividedSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t b
         int32_t i = a.first, j = b.first, t = TriangleAt(work, mesh, i), u = TriangleAt(work, mesh, j);
         if (t == u) {
             const kiriStretch part = StretchOfTriangle(mesh, t, square, axis);
-            CoverFace(grid, mesh, grid->nodeCell.data[work->entries.data[i]],
-                      grid->nodeCell.data[work->entries.data[j]], axis, &part);
+            CoverFace(grid, grid->nodeCell.data[work->entries.data[i]], grid->nodeCell.data[work->entries.data[j]],
+                      axis, &part);
         }
         a.first += t <= u;
         b.first += u <= t;
@@ -748,12 +753,13 @@ static void CoverDividedSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t b
 }
 
 /* Removes the emptied faces that no triangle covers any more, and records those that have changed. */
-static void CompareFaces(kiriGrid* grid, const kiriMeshData* mesh)
+static void CompareFaces(kiriGrid* grid)
 {
+    const kiriMeshData* mesh = grid->mesh;
     KIRI_EACH(const kiriOldFace, old, grid->work->oldFaces) {
         const kiriFace* face = &grid->faces.data[old->face];
         KIRI_ASSERT(face->cell[0] != KIRI_NONE && old->was.width > 0.0);
-        const kiriStretch was = old->was, is = kiriGrid_Stretch(grid, mesh, old->face);
+        const kiriStretch was = old->was, is = kiriGrid_Stretch(grid, old->face);
         if (is.width == 0.0) {
             RecordLink(grid, mesh->memory, face);
             RemoveFace(grid, old->face);
@@ -765,45 +771,45 @@ static void CompareFaces(kiriGrid* grid, const kiriMeshData* mesh)
     }
 }
 
-static void MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int32_t axis)
+static void MakeSide(kiriGrid* grid, int32_t before, int32_t square, int32_t axis)
 {
     KIRI_ASSERT(before >= 0 && before < square && square < grid->squareCell.count);
     int32_t a = grid->squareCell.data[before], b = grid->squareCell.data[square];
     if (a == KIRI_NONE || b == KIRI_NONE) {
         return;
     }
-    EmptyFaces(grid, mesh, square, axis);
+    EmptyFaces(grid, square, axis);
     if (grid->work->outOfMemory) {
         return;
     }
     if (grid->whole.data[before] && grid->whole.data[square]) {
-        CoverFace(grid, mesh, a, b, axis, NULL);
+        CoverFace(grid, a, b, axis, NULL);
     } else {
-        CollectTriangles(grid, mesh, before);
-        CollectTriangles(grid, mesh, square);
-        CoverDividedSide(grid, mesh, before, square, axis);
+        CollectTriangles(grid, before);
+        CollectTriangles(grid, square);
+        CoverDividedSide(grid, before, square, axis);
     }
-    CompareFaces(grid, mesh);
+    CompareFaces(grid);
     grid->work->debt += COST_OF_SIDE;
 }
 
 /* Makes the four sides of a square. Between two squares in the list the one with the higher coordinate does it. */
-static void MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void MakeFaces(kiriGrid* grid, int32_t item)
 {
-    const kiriSquares* squares = &mesh->squares;
+    const kiriSquares* squares = &grid->mesh->squares;
     KIRI_ASSERT_HAS(grid->work->facesDirty, item);
     int32_t square = grid->work->facesDirty.data[item];
     int32_t place[2] = { square % squares->columns, square / squares->columns };
     KIRI_TIMES(axis, 2) {
         if (place[axis] > 0) {
-            MakeSide(grid, mesh, square - (axis == 0 ? 1 : squares->columns), square, axis);
+            MakeSide(grid, square - (axis == 0 ? 1 : squares->columns), square, axis);
         }
     }
     KIRI_TIMES(axis, 2) {
         int32_t beyond = square + (axis == 0 ? 1 : squares->columns);
         if (place[axis] + 1 < (axis == 0 ? squares->columns : squares->rows) &&
             (grid->work->squareFlags.data[beyond] & SQUARE_FACES_DIRTY) == 0) {
-            MakeSide(grid, mesh, square, beyond, axis);
+            MakeSide(grid, square, beyond, axis);
         }
     }
 }
@@ -847,8 +853,9 @@ static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int3
 }
 
 /* Lists the cells from which a step may touch a square where a face came or went. */
-static void SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void SpreadDirty(kiriGrid* grid, int32_t item)
 {
+    const kiriMeshData* mesh = grid->mesh;
     const kiriSquares* squares = &mesh->squares;
     KIRI_ASSERT(item >= 0 && item < grid->work->linksDirty.count && !grid->work->fromScratch);
     int32_t center = grid->work->linksDirty.data[item];
@@ -992,8 +999,9 @@ static void AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 
 /* Makes a cell's straight and diagonal steps, or opens it amid whole squares. Its old knights stay until all diagonal
    steps are made. */
-static void MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void MakeNearSteps(kiriGrid* grid, int32_t item)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     int32_t c = work->fromScratch ? item : work->stepsDirty.data[item];
     KIRI_ASSERT(work->fromScratch || kiriGrid_IsCell(grid, c));
@@ -1050,8 +1058,9 @@ static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
     }
 }
 
-static void MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void MakeKnightSteps(kiriGrid* grid, int32_t item)
 {
+    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT_HAS(grid->work->knightsDirty, item);
     int32_t c = grid->work->knightsDirty.data[item];
     kiriSteps has = kiriGrid_GetSteps(grid, c);
@@ -1080,11 +1089,11 @@ static void KeepCellsInUse(kiriGrid* grid, kiriIndices* list)
 }
 
 /* Takes removed cells out of the other lists. Those that were made and removed since ClearChanges leave no trace. */
-static void ForgetRemoved(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
+static void ForgetRemoved(kiriGrid* grid, int32_t item)
 {
     kiriGridChanges* changes = &grid->changes;
     int32_t count = 0;
-    (void)mesh;
+    (void)grid->mesh;
     (void)item;
     KIRI_EACH(const kiriMaterialChange, at, changes->material) {
         const kiriMaterialChange change = *at;
@@ -1111,7 +1120,7 @@ static void ForgetRemoved(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
 
 /* Stages of algorithm 3, each over the items of a list. Faces need all cells, diagonal steps need all faces, and
    knight's moves need all diagonal steps. */
-typedef void GridStageFn(kiriGrid* grid, const kiriMeshData* mesh, int32_t item);
+typedef void GridStageFn(kiriGrid* grid, int32_t item);
 enum { GRID_STAGES = 6 };
 static GridStageFn* const gridStages[GRID_STAGES] = {
     MakeCells,       /* of dirty squares */
@@ -1124,10 +1133,10 @@ static GridStageFn* const gridStages[GRID_STAGES] = {
 
 /* Makes a cell a square, not in use yet. Cells of squares without material are free for other squares. Reserving adds
    an eighth for what cuts make. */
-static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
+static bool MakeUnusedCells(kiriGrid* grid)
 {
     kiriGridWork* work = grid->work;
-    kiriMemory* memory = mesh->memory;
+    kiriMemory* memory = grid->mesh->memory;
     int32_t squares = grid->squareCell.count;
     int64_t cells = squares + 64, made = 64;
     if (!kiriArrays_Reserve(memory, cells, &grid->cells, &grid->runs, &work->cellFlags, &work->mark)) {
@@ -1137,7 +1146,7 @@ static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
     kiriArray_Set(&grid->runs, 0);
     kiriArray_Set(&work->mark, 0);
     for (int32_t s = squares - 1; s >= 0; --s) {
-        bool isFree = mesh->squares.head[s] == KIRI_NONE;
+        bool isFree = grid->mesh->squares.head[s] == KIRI_NONE;
         grid->cells.data[s] = (kiriCell){ KIRI_NONE, grid->freeCell, KIRI_NONE, KIRI_NONE, KIRI_NONE };
         grid->freeCell = isFree ? s : grid->freeCell;
         made += !isFree;
@@ -1147,8 +1156,9 @@ static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
 }
 
 /* Starts the first update, or one after a reset: no square has a cell, and all squares are dirty. */
-static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
+static bool StartFromScratch(kiriGrid* grid)
 {
+    const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     int32_t squareCount = mesh->squares.columns * mesh->squares.rows;
     if (!kiriArray_ResizeJust(mesh->memory, &grid->squareCell, squareCount) ||
@@ -1166,11 +1176,12 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     }
     grid->side = mesh->step * mesh->squares.side;
     grid->freeCell = grid->freeFace = KIRI_NONE;
-    return MakeUnusedCells(grid, mesh);
+    return MakeUnusedCells(grid);
 }
 
-static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
+static bool StartGridUpdate(kiriGrid* grid)
 {
+    const kiriMeshData* mesh = grid->mesh;
     if (grid->work == NULL) {
         grid->work = kiriMemory_AllocZeroed(mesh->memory, sizeof(*grid->work));
     }
@@ -1179,7 +1190,7 @@ static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
     }
     grid->work->fromScratch = grid->squareCell.count == 0;
     grid->work->running = true;
-    return (!grid->work->fromScratch || StartFromScratch(grid, mesh)) &&
+    return (!grid->work->fromScratch || StartFromScratch(grid)) &&
            kiriArray_ReserveJust(mesh->memory, &grid->nodeCell, mesh->squares.nodes.capacity) &&
            kiriArray_Resize(mesh->memory, &grid->nodeCell, mesh->squares.nodes.count) &&
            kiriArray_ReserveJust(mesh->memory, &grid->vertexCell, mesh->vertices.capacity) &&
@@ -1210,7 +1221,8 @@ static bool PayForGrid(kiriGridWork* work, kiriQuota* quota)
 
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
-    if ((grid->work == NULL || !grid->work->running) && !StartGridUpdate(grid, mesh)) {
+    grid->mesh = mesh;
+    if ((grid->work == NULL || !grid->work->running) && !StartGridUpdate(grid)) {
         return KIRI_FAILED;
     }
     kiriGridWork* work = grid->work;
@@ -1227,7 +1239,7 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
             if (kiriMemory_MustPause(mesh->memory) || !PayForGrid(work, quota)) {
                 return KIRI_MORE;
             }
-            gridStages[work->stage](grid, mesh, work->item);
+            gridStages[work->stage](grid, work->item);
             if (work->outOfMemory) {
                 return KIRI_FAILED;
             }
@@ -1340,8 +1352,9 @@ void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count)
     kiriSort(cells, count, IsCellBefore, grid);
 }
 
-int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
+int32_t kiriGrid_CellOf(const kiriGrid* grid, int32_t triangle, kiriLatticePoint at)
 {
+    const kiriMeshData* mesh = grid->mesh;
     int32_t square = kiriSquares_At(&mesh->squares, at);
     int32_t node = square == KIRI_NONE ? KIRI_NONE : mesh->squares.head[square];
     while (node != KIRI_NONE && mesh->squares.nodes.data[node].triangle != triangle) {
@@ -1351,23 +1364,25 @@ int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t 
     return node == KIRI_NONE ? KIRI_NONE : grid->nodeCell.data[node];
 }
 
-int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, int32_t vertex)
+int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, int32_t vertex)
 {
-    int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at),
+    int32_t square = kiriSquares_At(&grid->mesh->squares, grid->mesh->vertices.data[vertex].at),
             first = grid->squareCell.data[square];
     KIRI_ASSERT(vertex < grid->vertexCell.count);
     return grid->cells.data[first].next == KIRI_NONE ? first : grid->vertexCell.data[vertex];
 }
 
-kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+kiriVec2 kiriGrid_Middle(const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
-    kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, grid->cells.data[cell].square));
+    kiriVec2 corner =
+        kiriMesh_Local(grid->mesh, kiriSquares_Corner(&grid->mesh->squares, grid->cells.data[cell].square));
     return kiriVec2_Add(corner, kiriVec2_Make(0.5 * grid->side, 0.5 * grid->side));
 }
 
-kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, int32_t cell)
 {
+    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     kiriMoments largest = { 0 };
     int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
@@ -1383,23 +1398,23 @@ kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh,
     }
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
     return kiriMesh_Snap(mesh, largest.area > 0.0 ? kiriVec2_Add(corner, kiriMoments_Center(&largest))
-                                                  : kiriGrid_Middle(grid, mesh, cell));
+                                                  : kiriGrid_Middle(grid, cell));
 }
 
-int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at)
+int32_t kiriGrid_CellAt(const kiriGrid* grid, kiriLatticePoint at)
 {
-    int32_t triangle = kiriMesh_Locate(mesh, at);
-    return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, mesh, triangle, at);
+    int32_t triangle = kiriMesh_Locate(grid->mesh, at);
+    return triangle == KIRI_NONE ? KIRI_NONE : kiriGrid_CellOf(grid, triangle, at);
 }
 
-int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at)
+int32_t kiriGrid_CellAround(const kiriGrid* grid, kiriLatticePoint at)
 {
-    int32_t square = kiriSquares_At(&mesh->squares, at);
+    int32_t square = kiriSquares_At(&grid->mesh->squares, at);
     int32_t first = square == KIRI_NONE ? KIRI_NONE : grid->squareCell.data[square];
     if (first == KIRI_NONE || grid->cells.data[first].next == KIRI_NONE) {
         return first;
     }
-    int32_t cell = kiriGrid_CellAt(grid, mesh, at);
+    int32_t cell = kiriGrid_CellAt(grid, at);
     return cell == KIRI_NONE ? first : cell;
 }
 

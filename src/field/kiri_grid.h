@@ -104,6 +104,7 @@ typedef struct kiriGridWork kiriGridWork; /* the update in progress, see below *
 /* Cells keep their index as long as they live. Orders depend neither on indices nor on the order of cuts: cells are
    ordered by square, then lowest triangle. So an updated grid equals one from scratch, but for the indices. */
 typedef struct kiriGrid {
+    const kiriMeshData* mesh;     /* the grid is of this mesh alone */
     double side;                  /* m */
     KIRI_ARRAY(kiriCell) cells;   /* by index, with gaps */
     KIRI_ARRAY(kiriStepRun) runs; /* of each cell */
@@ -231,7 +232,7 @@ static inline bool kiriGrid_HasStep(const kiriGrid* grid, int32_t from, int32_t 
 }
 
 /* Returns the moments that a cell covers, about the local origin; of a removed cell its last ones. */
-kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+kiriMoments kiriGrid_Material(const kiriGrid* grid, int32_t cell);
 
 /* Returns the area of a cell, m^2. */
 static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
@@ -240,7 +241,7 @@ static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
     return material == KIRI_NONE ? grid->side * grid->side : grid->materials.data[material].area;
 }
 
-kiriStretch kiriGrid_Stretch(const kiriGrid* grid, const kiriMeshData* mesh, int32_t face);
+kiriStretch kiriGrid_Stretch(const kiriGrid* grid, int32_t face);
 
 /* For a face seen from one of its cells, return the cell on the other side, and the next face of the given cell. */
 static inline int32_t kiriFace_Other(const kiriFace* face, int32_t cell)
@@ -274,23 +275,23 @@ void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count);
 void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent);
 
 /* Finds the cell that holds this part of this triangle; KIRI_NONE where it does not overlap the square around `at`. */
-int32_t kiriGrid_CellOf(const kiriGrid* grid, const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
+int32_t kiriGrid_CellOf(const kiriGrid* grid, int32_t triangle, kiriLatticePoint at);
 
 /* Finds the cell of a vertex and its fan. */
-int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, const kiriMeshData* mesh, int32_t vertex);
+int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, int32_t vertex);
 
 /* Finds the cell that holds a lattice point of the material, or returns KIRI_NONE. */
-int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
+int32_t kiriGrid_CellAt(const kiriGrid* grid, kiriLatticePoint at);
 
 /* Finds the cell at a point. A point beside the material gets the first cell of its square: a cut of a slanted outline
    may move the outline past it by a rounding of the lattice. KIRI_NONE in a square without material. */
-int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
+int32_t kiriGrid_CellAround(const kiriGrid* grid, kiriLatticePoint at);
 
 /* Returns the middle of a cell's square, local m. */
-kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+kiriVec2 kiriGrid_Middle(const kiriGrid* grid, int32_t cell);
 
 /* Returns a lattice point of the cell's material, well inside: it finds the material again after the cell is split. */
-kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
+kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, int32_t cell);
 
 /* The update in progress. Private to kiri_grid.c, and to snapshots. */
 

@@ -25,7 +25,6 @@ enum { REGION_STALE = 1, REGION_TOUCHED = 2 };
 typedef struct LinkUpdate {
     kiriMemory* memory;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     const kiriRegions* regions;
     const int32_t* owner; /* region of each cell */
     const kiriSite* sites;
@@ -153,7 +152,7 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
     KIRI_EACH_INDEX(k, *found) {
         kiriBorderFace* f = &work->stretch.data[k];
         *f = BorderFaceOf(u, found->data[k]);
-        f->stretch = kiriGrid_Stretch(u->grid, u->mesh, f->face);
+        f->stretch = kiriGrid_Stretch(u->grid, f->face);
         f->isSliver = f->stretch.width < kiriSliver * u->grid->side || IsSliver(u->grid, f->cell[0]) ||
                       IsSliver(u->grid, f->cell[1]);
     }
@@ -234,7 +233,7 @@ static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool 
         between += kiriMin(a, b) == face->region[0] && kiriMax(a, b) == face->region[1];
     }
     int32_t upperRight = u->grid->cells.data[ring[upper ? 2 : 1]].square;
-    kiriVec2 node = kiriMesh_Local(u->mesh, kiriSquares_Corner(&u->mesh->squares, upperRight));
+    kiriVec2 node = kiriMesh_Local(u->grid->mesh, kiriSquares_Corner(&u->grid->mesh->squares, upperRight));
     SetEnd(end, between == 1 ? KIRI_END_CORNER : KIRI_END_INNER, node);
     KIRI_TIMES_WHILE(between == 1, k, 4) {
         AddEndRegion(end, u->owner[ring[k]]);
@@ -354,7 +353,7 @@ static void AddRegionsAt(const LinkUpdate* u, NearRegions* near, const int32_t c
 
 static kiriSight SightOf(const LinkUpdate* u, const NearRegions* near)
 {
-    return (kiriSight){ u->grid, u->mesh, u->owner, near->region, near->count, &u->work->edges };
+    return (kiriSight){ u->grid, u->owner, near->region, near->count, &u->work->edges };
 }
 
 /* Returns the cell before this one on the shortest way from the site, or KIRI_NONE where the site's seed is nearer. */
@@ -363,7 +362,7 @@ static int32_t CellBefore(const LinkUpdate* u, int32_t cell)
     const kiriField* field = &u->regions->field;
     int32_t region = field->owner.data[cell], distance = field->distance.data[cell];
     KIRI_ASSERT(region != KIRI_NONE && distance != KIRI_FAR);
-    if (kiriSite_SeedAt(&u->sites[region], region, u->grid, u->mesh, cell).distance == distance) {
+    if (kiriSite_SeedAt(&u->sites[region], region, u->grid, cell).distance == distance) {
         return KIRI_NONE;
     }
     KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
@@ -388,7 +387,7 @@ static bool IsSiteInside(const LinkUpdate* u, int32_t region)
 {
     const kiriSite* site = &u->sites[region];
     return u->grid->whole.data[u->grid->cells.data[site->cell].square] ||
-           kiriGrid_CellAt(u->grid, u->mesh, kiriMesh_Snap(u->mesh, site->at)) == site->cell;
+           kiriGrid_CellAt(u->grid, kiriMesh_Snap(u->grid->mesh, site->at)) == site->cell;
 }
 
 /* Returns an upper bound, m, of the true length of a way with this length on the grid, which may cut the end of a slit
@@ -467,7 +466,7 @@ static kiriVec2 EdgeEnd(const kiriMeshData* mesh, int32_t edge, bool isHead)
 /* Sets an open end on an edge of the material. */
 static void SetOpenEnd(const LinkUpdate* u, kiriLinkEnd* end, kiriVec2 at, int32_t edge)
 {
-    kiriVec2 way = kiriVec2_Sub(EdgeEnd(u->mesh, edge, true), EdgeEnd(u->mesh, edge, false));
+    kiriVec2 way = kiriVec2_Sub(EdgeEnd(u->grid->mesh, edge, true), EdgeEnd(u->grid->mesh, edge, false));
     double size = kiriVec2_Length(way);
     SetEnd(end, KIRI_END_OPEN, at);
     end->edge = kiriVec2_Scale(size > 0.0 ? 1.0 / size : 0.0, way);
@@ -523,7 +522,7 @@ static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
    the sites must see it. If another region is nearer from the start at both ends, the border does not exist. */
 static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 {
-    double start = s->ahead * AlongLine(&s->line, from), extent = s->u->mesh->step * KIRI_LATTICE;
+    double start = s->ahead * AlongLine(&s->line, from), extent = s->u->grid->mesh->step * KIRI_LATTICE;
     double limit = FindFirstLimit(s), goal = kiriMin(limit, start + 2.0 * extent);
     SetEnd(end, KIRI_END_CORNER, PointOn(&s->line, s->ahead * limit));
     KIRI_EACH_INDEX_WHILE(end->region[KIRI_CORNER_REGIONS - 1] == KIRI_NONE, k, s->near) {
@@ -571,7 +570,7 @@ static bool FindSlitEnd(const EndSearch* s, kiriLinkEnd* end)
         int32_t looks = 0;
         kiriSlitEnd slit;
         if (kiriVec2_Distance(face->stretch.middle, s->grid->at) < 3.0 * side &&
-            kiriSlits_FindEndIn(u->grid, u->mesh, u->grid->faces.data[face->face].cell[k % 2], &slit, &looks)) {
+            kiriSlits_FindEndIn(u->grid, u->grid->faces.data[face->face].cell[k % 2], &slit, &looks)) {
             double aside = kiriVec2_Dot(kiriVec2_Sub(slit.at, s->line.middle), s->line.normal);
             double back = s->ahead * kiriVec2_Dot(slit.along, s->line.tangent);
             kiriVec2 before = kiriVec2_AddScaled(slit.at, 1e-3 * side, slit.along);
@@ -664,7 +663,7 @@ static kiriVec2 FindBetweenOnEdge(const EndSearch* s, kiriVec2 a, double farA, k
    the difference of distances falls, to where it vanishes. */
 static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd* end)
 {
-    const kiriMeshData* mesh = s->u->mesh;
+    const kiriMeshData* mesh = s->u->grid->mesh;
     int32_t edge = *on;
     kiriVec2 slope;
     KIRI_ASSERT(s->reach[0].state == REACH_KNOWN && s->reach[1].state == REACH_KNOWN);
@@ -689,7 +688,7 @@ static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd*
 /* Do both reaches see a point of an edge, from a little to its left? Those that do not are found again from there. */
 static bool IsLipSeen(EndSearch* s, int32_t edge, kiriVec2 at)
 {
-    kiriVec2 way = kiriVec2_Sub(EdgeEnd(s->u->mesh, edge, true), EdgeEnd(s->u->mesh, edge, false));
+    kiriVec2 way = kiriVec2_Sub(EdgeEnd(s->u->grid->mesh, edge, true), EdgeEnd(s->u->grid->mesh, edge, false));
     double size = kiriVec2_Length(way), off = size > 0.0 ? 1e-3 * s->u->grid->side / size : 0.0;
     kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Make(-off * way.y, off * way.x));
     bool seen = true;
@@ -891,9 +890,9 @@ static void TryLongSteps(const LinkUpdate* u, int32_t cell, int32_t to, SitesWay
         if (field->owner.data[step.cell] == to) {
             int32_t length = field->distance.data[cell] + step.length + field->distance.data[step.cell];
             if (length < way->length) {
-                kiriVec2 a = kiriGrid_Middle(u->grid, u->mesh, cell);
+                kiriVec2 a = kiriGrid_Middle(u->grid, cell);
                 way->length = length;
-                way->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, kiriGrid_Middle(u->grid, u->mesh, step.cell)));
+                way->crossing = kiriVec2_Scale(0.5, kiriVec2_Add(a, kiriGrid_Middle(u->grid, step.cell)));
             }
         }
     }
@@ -1418,8 +1417,8 @@ static bool ClipToSquare(const kiriMeshData* mesh, int32_t square, kiriLatticePo
 /* Returns the region of a triangle's material in a square, or KIRI_NONE. */
 static int32_t RegionIn(const LinkUpdate* u, int32_t square, int32_t triangle)
 {
-    KIRI_EACH_NODE(node, &u->mesh->squares, square) {
-        if (u->mesh->squares.nodes.data[node].triangle == triangle) {
+    KIRI_EACH_NODE(node, &u->grid->mesh->squares, square) {
+        if (u->grid->mesh->squares.nodes.data[node].triangle == triangle) {
             return u->owner[u->grid->nodeCell.data[node]];
         }
     }
@@ -1429,7 +1428,7 @@ static int32_t RegionIn(const LinkUpdate* u, int32_t square, int32_t triangle)
 /* Adds the part of a crease that lies in a square; h runs along the fold. */
 static bool AddFoldPart(const LinkUpdate* u, const kiriFoldLine* fold, int32_t square, int32_t h)
 {
-    const kiriMeshData* mesh = u->mesh;
+    const kiriMeshData* mesh = u->grid->mesh;
     kiriLatticePoint ends[2] = { kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h) };
     kiriVec2 start = kiriMesh_Local(mesh, fold->from), way = kiriVec2_Sub(kiriMesh_Local(mesh, fold->to), start);
     double length = kiriVec2_Length(way), along[2], share[2];
@@ -1463,10 +1462,10 @@ static bool IsPartBefore(const void* context, int32_t a, int32_t b)
 /* Makes the link of parts order[first] to order[end - 1], of one pair of regions. */
 static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32_t end)
 {
-    const kiriFoldLine* line = &u->mesh->folds.data[fold];
+    const kiriFoldLine* line = &u->grid->mesh->folds.data[fold];
     const int32_t* order = u->work->order.data;
-    kiriVec2 start = kiriMesh_Local(u->mesh, line->from);
-    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(u->mesh, line->to), start);
+    kiriVec2 start = kiriMesh_Local(u->grid->mesh, line->from);
+    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(u->grid->mesh, line->to), start);
     kiriVec2 along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
     kiriNewLink made = { 0 };
     kiriLink* link = &made.link;
@@ -1500,10 +1499,10 @@ static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32
 
 static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
 {
-    const kiriFoldLine* line = &u->mesh->folds.data[fold];
+    const kiriFoldLine* line = &u->grid->mesh->folds.data[fold];
     kiriLinkWork* work = u->work;
     kiriLatticePoint from = line->from, to = line->to;
-    const kiriMeshData* mesh = u->mesh;
+    const kiriMeshData* mesh = u->grid->mesh;
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, from, to, line->reach);
     work->parts.count = 0;
     while (kiriStrips_Next(&strips)) {
@@ -1562,7 +1561,7 @@ static bool AppendFoldLinks(const LinkUpdate* u)
     }
     KIRI_EACH_INDEX(k, work->order) {
         kiriNewLink* made = &work->made.data[work->order.data[k]];
-        const kiriFoldLine* line = &u->mesh->folds.data[made->link.fold - 1];
+        const kiriFoldLine* line = &u->grid->mesh->folds.data[made->link.fold - 1];
         made->link.hinge = line->stiffness;
         made->link.rest = line->restAngle;
         made->link.yield = line->yieldMoment;
@@ -1585,8 +1584,9 @@ static bool BeginLinks(const LinkUpdate* u)
     u->links->next.count = work->nextEnds.count = u->links->changed = 0;
     work->faces.count = work->made.count = work->at = 0;
     work->due = 0;
-    work->foldCount = u->mesh->folds.count;
-    if (!kiriSightEdges_Start(&work->edges, u->mesh) || !kiriArray_Resize(u->memory, &work->stale, u->siteCount) ||
+    work->foldCount = u->grid->mesh->folds.count;
+    if (!kiriSightEdges_Start(&work->edges, u->grid->mesh) ||
+        !kiriArray_Resize(u->memory, &work->stale, u->siteCount) ||
         !kiriArray_Resize(u->memory, &work->marks, kiriMax(marks, faces))) {
         return false;
     }
@@ -1711,7 +1711,7 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
             work->due += 2 * (int64_t)u->links->next.count;
             work->made.count = 0;
         } else if (fold < work->foldCount) {
-            ok = u->mesh->folds.data[fold].isMade == 0 || MakeLinksOfFold(u, fold);
+            ok = u->grid->mesh->folds.data[fold].isMade == 0 || MakeLinksOfFold(u, fold);
         } else if (fold == work->foldCount) {
             ok = AppendFoldLinks(u);
         } else {
@@ -1731,8 +1731,8 @@ static void EndLinks(kiriLinkWork* work)
     work->running = false;
 }
 
-kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount, kiriQuota* quota)
+kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
+                              const kiriSite* sites, int32_t siteCount, kiriQuota* quota)
 {
     KIRI_ASSERT(regions->dirty.count == siteCount && regions->border.first.count == siteCount && !regions->running);
     if (links->work == NULL) {
@@ -1741,7 +1741,7 @@ kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGr
     if (links->work == NULL) {
         return KIRI_FAILED;
     }
-    LinkUpdate u = { memory, grid, mesh, regions, regions->field.owner.data, sites, siteCount, links, links->work };
+    LinkUpdate u = { memory, grid, regions, regions->field.owner.data, sites, siteCount, links, links->work };
     KIRI_ASSERT(links->work->ends.count == links->links.count);
     kiriProgress progress = links->work->running || BeginLinks(&u) ? RunLinks(&u, quota) : KIRI_FAILED;
     if (progress != KIRI_MORE) {

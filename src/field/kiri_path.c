@@ -47,7 +47,7 @@ bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 
 static bool AddSightEdge(const kiriSight* sight, int32_t square, int32_t h, int32_t cell)
 {
-    const kiriMeshData* mesh = sight->mesh;
+    const kiriMeshData* mesh = sight->grid->mesh;
     kiriLatticePoint tail = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, head = kiriSight_HeadOf(mesh, h);
     kiriLatticePoint after = kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h));
     /* At the end of a slit the way turns back: from the edge to its other side. */
@@ -63,7 +63,7 @@ static bool AddSightEdge(const kiriSight* sight, int32_t square, int32_t h, int3
 
 static bool CollectEdges(const kiriSight* sight, int32_t square)
 {
-    const kiriMeshData* mesh = sight->mesh;
+    const kiriMeshData* mesh = sight->grid->mesh;
     kiriSightEdges* edges = sight->edges;
     kiriSquareEdges entry = { square, { edges->edges.count, 0 } };
     bool ok = true;
@@ -174,9 +174,9 @@ typedef struct SightAxis {
 } SightAxis;
 
 /* Starts the axis. `first`: the first column of the grid, or its first row. */
-static SightAxis StartAxis(double from, double way, int32_t first, const kiriGrid* grid, const kiriMeshData* mesh)
+static SightAxis StartAxis(double from, double way, int32_t first, const kiriGrid* grid)
 {
-    double x = (from + mesh->step) / grid->side;
+    double x = (from + grid->mesh->step) / grid->side;
     int32_t at = (int32_t)(x + 1.0) - 1; /* rounded down: never below -1 */
     SightAxis axis = { at - first, way > 0.0 ? 1 : -1, 2.0, 2.0 };
     if (way != 0.0) {
@@ -188,12 +188,12 @@ static SightAxis StartAxis(double from, double way, int32_t first, const kiriGri
 
 kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiriSightHit* hit)
 {
-    const kiriSquares* squares = &sight->mesh->squares;
+    const kiriSquares* squares = &sight->grid->mesh->squares;
     kiriVec2 way = kiriVec2_Sub(q, p);
     double least = 1e-6 * sight->grid->side;
     SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, KIRI_NONE }, p, { 2.0, KIRI_NONE } };
-    SightAxis u = StartAxis(p.x, way.x, squares->firstColumn, sight->grid, sight->mesh),
-              v = StartAxis(p.y, way.y, squares->firstRow, sight->grid, sight->mesh);
+    SightAxis u = StartAxis(p.x, way.x, squares->firstColumn, sight->grid),
+              v = StartAxis(p.y, way.y, squares->firstRow, sight->grid);
     for (double entry = 0.0; entry < 1.0;) {
         int32_t square = v.at * squares->columns + u.at, count = 0;
         bool isInside = u.at >= 0 && u.at < squares->columns && v.at >= 0 && v.at < squares->rows;
@@ -289,7 +289,7 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
 {
     KIRI_ASSERT_HAS(sight->grid->cells, cell);
-    const kiriSquares* squares = &sight->mesh->squares;
+    const kiriSquares* squares = &sight->grid->mesh->squares;
     int32_t square = sight->grid->cells.data[cell].square;
     int32_t column = square % squares->columns, row = square / squares->columns;
     KIRI_TIMES(k, 9) {

@@ -34,7 +34,6 @@ bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh);
    make one of them dirty. */
 typedef struct kiriSight {
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     const int32_t* owner; /* region of each cell */
     const int32_t* regions;
     int32_t regionCount;

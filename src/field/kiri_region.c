@@ -2,54 +2,51 @@
 
 /* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
-static double DistanceTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+static double DistanceTo(const kiriSite* site, const kiriGrid* grid, int32_t cell)
 {
-    return kiriVec2_Distance(kiriGrid_Middle(grid, mesh, cell), site->at);
+    return kiriVec2_Distance(kiriGrid_Middle(grid, cell), site->at);
 }
 
-static bool IsAtMiddle(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh)
+static bool IsAtMiddle(const kiriSite* site, const kiriGrid* grid)
 {
-    return DistanceTo(site, grid, mesh, site->cell) <= 0.01 * grid->side;
+    return DistanceTo(site, grid, site->cell) <= 0.01 * grid->side;
 }
 
 /* Returns the seed in the site's own cell, or one step away from it. A site from untrusted bytes may be anywhere: its
    distance is capped so that ways can go on from there. */
-static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
-                         int32_t cell)
+static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell)
 {
-    if (IsAtMiddle(site, grid, mesh)) {
+    if (IsAtMiddle(site, grid)) {
         return (kiriSeed){ cell, cell == site->cell ? 0 : KIRI_FAR, owner };
     }
     const double most = 0.5 * (KIRI_FAR - 1);
-    double length = KIRI_UNIT * (DistanceTo(site, grid, mesh, cell) / grid->side) + 0.5;
+    double length = KIRI_UNIT * (DistanceTo(site, grid, cell) / grid->side) + 0.5;
     return (kiriSeed){ cell, (int32_t)kiriMin(length, most), owner };
 }
 
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
-                   const kiriMeshData* mesh, kiriSeeds* seeds)
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid, kiriSeeds* seeds)
 {
     kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
-    int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[2];
+    int32_t end = IsAtMiddle(site, grid) ? 0 : steps.end[2];
     bool ok = true;
     KIRI_FROM_TO_WHILE(ok, s, -1, end) {
-        kiriSeed seed = SeedNear(site, owner, grid, mesh, s < 0 ? site->cell : kiriSteps_At(&steps, s).cell);
+        kiriSeed seed = SeedNear(site, owner, grid, s < 0 ? site->cell : kiriSteps_At(&steps, s).cell);
         ok = kiriArray_Push(memory, seeds, seed);
     }
     return ok;
 }
 
-kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
-                         int32_t cell)
+kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && kiriGrid_IsCell(grid, site->cell));
     /* Most cells are too far for a step: more than two squares along an axis. */
-    int32_t columns = mesh->squares.columns,
+    int32_t columns = grid->mesh->squares.columns,
             apart = grid->cells.data[cell].square - grid->cells.data[site->cell].square;
     apart = kiriMax(apart, -apart) + 2;
     bool isClose =
         apart <= 4 || (apart >= columns && apart <= columns + 4) || (apart >= 2 * columns && apart <= 2 * columns + 4);
     bool near = cell == site->cell || (isClose && kiriGrid_HasStep(grid, cell, site->cell, KIRI_KNIGHT));
-    return near ? SeedNear(site, owner, grid, mesh, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
+    return near ? SeedNear(site, owner, grid, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
 }
 
 /* ---- An update --------------------------------------------------------------------------------------------------- */
@@ -58,7 +55,6 @@ typedef struct RegionUpdate {
     kiriRegions* regions;
     kiriMemory* memory;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     const kiriSite* sites;
     int32_t siteCount;
     const kiriSiteMove* moves;
@@ -73,12 +69,12 @@ static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
     const int32_t* siteAt = u->regions->siteAt.data;
     kiriSeed best = { cell, KIRI_FAR, KIRI_NONE };
     if (siteAt[cell] != KIRI_NONE) {
-        return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, u->mesh, cell);
+        return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, cell);
     }
     KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
         int32_t owner = siteAt[step.cell];
         if (owner != KIRI_NONE) {
-            kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, u->mesh, cell);
+            kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, cell);
             bool nearer = seed.distance < best.distance || (seed.distance == best.distance && owner < best.owner);
             best = nearer && seed.distance != KIRI_FAR ? seed : best;
         }
@@ -97,7 +93,7 @@ static void MarkRegionDirty(kiriRegions* regions, int32_t frame)
 static void AddToRegion(const RegionUpdate* u, int32_t frame, kiriMoments material, int sign)
 {
     if (frame != KIRI_NONE) {
-        kiriTally_Add(&u->regions->material.data[frame], &material, sign, u->mesh->step * KIRI_LATTICE);
+        kiriTally_Add(&u->regions->material.data[frame], &material, sign, u->grid->mesh->step * KIRI_LATTICE);
         u->regions->dirty.data[frame] = 1;
     }
 }
@@ -176,7 +172,7 @@ static void FollowGrid(const RegionUpdate* u)
     const kiriGridChanges* changes = &u->grid->changes;
     KIRI_FROM_TO(k, r->seen.gone, changes->gone.count) {
         int32_t cell = changes->gone.data[k];
-        AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, u->mesh, cell), -1);
+        AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
         SetBorder(r, cell, false);
@@ -185,7 +181,7 @@ static void FollowGrid(const RegionUpdate* u)
         const kiriMaterialChange* change = &changes->material.data[k];
         int32_t owner = r->field.owner.data[change->cell];
         AddToRegion(u, owner, change->was, -1);
-        AddToRegion(u, owner, kiriGrid_Material(u->grid, u->mesh, change->cell), 1);
+        AddToRegion(u, owner, kiriGrid_Material(u->grid, change->cell), 1);
     }
     KIRI_FROM_TO(k, r->seen.steps, changes->steps.count) {
         int32_t cell = changes->steps.data[k];
@@ -204,7 +200,7 @@ static bool StartRegionFlood(const RegionUpdate* u)
     kiriSeeds seeds = { 0 };
     bool ok = true;
     KIRI_TIMES_WHILE(ok, i, u->siteCount) {
-        ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
+        ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, &seeds);
     }
     const int32_t* holders = u->regions->siteAt.data;
     KIRI_KEEP_IF(const kiriSeed, seed, seeds, holders[seed->cell] == KIRI_NONE || holders[seed->cell] == seed->owner);
@@ -262,7 +258,7 @@ static bool FollowChange(const RegionUpdate* u, kiriSeed was)
     }
     MarkRegionDirty(r, owner);
     if (was.owner != owner) {
-        kiriMoments material = kiriGrid_Material(u->grid, u->mesh, was.cell);
+        kiriMoments material = kiriGrid_Material(u->grid, was.cell);
         AddToRegion(u, was.owner, material, -1);
         AddToRegion(u, owner, material, 1);
         FindBordersAround(u, was.cell);
@@ -316,7 +312,7 @@ static bool FinishFlood(const RegionUpdate* u)
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
             int32_t owner = r->field.owner.data[c];
             KIRI_ASSERT(owner >= KIRI_NONE && owner < u->siteCount);
-            AddToRegion(u, owner, kiriGrid_Material(u->grid, u->mesh, c), 1);
+            AddToRegion(u, owner, kiriGrid_Material(u->grid, c), 1);
             FindBorder(u, c);
             if (owner == KIRI_NONE ? !kiriArray_Push(u->memory, &r->orphans, c) : !AddRegionChange(u, was)) {
                 return false;
@@ -372,11 +368,10 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
     return progress;
 }
 
-kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
-                                const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
-                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid, const kiriSite* sites,
+                                int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
-    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount };
+    RegionUpdate u = { regions, memory, grid, sites, siteCount, moves, moveCount };
     KIRI_ASSERT(siteCount >= regions->material.count && grid->cells.count >= regions->siteAt.count);
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;

@@ -19,12 +19,10 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
 /* Adds the seeds of distances to the site. If the site is off the middle of its square, the cells one step away are
    seeds as well, so that distances depend on its position in the cell. Fails on out of memory. */
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
-                   const kiriMeshData* mesh, kiriSeeds* seeds);
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid, kiriSeeds* seeds);
 
 /* Returns the seed of the site in one cell; distance KIRI_FAR where it has none there. */
-kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
-                         int32_t cell);
+kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell);
 
 /* Entries of the grid's changes that earlier updates have followed, for each list. */
 typedef struct kiriSeenChanges {
@@ -66,9 +64,8 @@ typedef struct kiriSiteMove {
    before the changes of grid and regions are cleared, together, and before the next update of the grid. Items of the
    quota: see kiriField_Repair, and two for a cell of its log. KIRI_MORE: call again with the same arguments.
    KIRI_FAILED: only kiriRegions_Reset helps. */
-kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
-                                const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
-                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid, const kiriSite* sites,
+                                int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
 /* Takes away the frames that are not kept, and the cells of their regions, which `gone` lists; other frames get their
    new index. Not during an update, nor before its changes are cleared. Cannot fail. */

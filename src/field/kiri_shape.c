@@ -21,7 +21,6 @@ typedef struct ShapeJob {
     kiriShapeWork* work;
     kiriMemory* memory;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     const kiriRegions* regions;
     const kiriSite* sites;
     int32_t siteCount;
@@ -105,7 +104,7 @@ static kiriSeed SiteSeed(const void* context, int32_t cell)
     const ShapeJob* job = context;
     const kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
     bool may = (job->work->marks.data[cell] & MARK_SEED) != 0;
-    return may ? kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell) : none;
+    return may ? kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, cell) : none;
 }
 
 /* Returns the seed at the border: it crosses the step from x to y where the distances to their sites are equal. Rounds
@@ -449,7 +448,7 @@ static bool StartFromSite(ShapeJob* job)
     }
     int32_t limit = sides < 1 ? KIRI_UNIT : (int32_t)kiriMin(sides * KIRI_UNIT, KIRI_FAR - 1);
     work->seeds.count = 0;
-    if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds)) {
+    if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, &work->seeds)) {
         return false;
     }
     KIRI_EACH(const kiriSeed, seed, work->seeds) {
@@ -753,16 +752,16 @@ static void EndShapeUpdate(ShapeJob* job)
     job->work->running = false;
 }
 
-kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                              const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
-                              const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
+                              const kiriSite* sites, int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount,
+                              kiriQuota* quota)
 {
     if (shape->work == NULL) {
         shape->work = kiriMemory_AllocZeroed(memory, sizeof(*shape->work));
     }
     kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
-    ShapeJob job = { shape, work, memory, grid, mesh, regions, sites, siteCount, quota, false, KIRI_NONE };
+    ShapeJob job = { shape, work, memory, grid, regions, sites, siteCount, quota, false, KIRI_NONE };
     if (work == NULL || (!work->running && !StartShapeUpdate(&job, moves, moveCount))) {
         return KIRI_FAILED;
     }

@@ -43,16 +43,16 @@ bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along)
     return (isNotch || IsSlitEnd(mesh, first, last)) && !kiriMesh_IsCrease(mesh, first) && !kiriMesh_IsCrease(mesh, other);
 }
 
-bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end, int32_t* looks)
+bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, int32_t* looks)
 {
+    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     int32_t square = grid->cells.data[cell].square;
     int32_t v = grid->whole.data[square] ? KIRI_NONE : mesh->squares.vertexHead[square];
     for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
         int32_t first, last;
         *looks += 1;
-        if (kiriGrid_CellOfVertex(grid, mesh, v) == cell && FindFan(mesh, v, &first, &last) &&
-            IsSlitEnd(mesh, first, last)) {
+        if (kiriGrid_CellOfVertex(grid, v) == cell && FindFan(mesh, v, &first, &last) && IsSlitEnd(mesh, first, last)) {
             int32_t before = kiriMesh_Head(mesh, first);
             end->at = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, mesh->vertices.data[before].at));
@@ -65,7 +65,7 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
 }
 
 kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
-                                const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota)
+                                const int32_t* cells, int32_t cellCount, kiriQuota* quota)
 {
     enum { CELLS_AN_ITEM = 16, VERTICES_AN_ITEM = 3 };
     ends->count = search->seen == 0 ? 0 : ends->count;
@@ -75,7 +75,7 @@ kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiri
         if (search->seen == cellCount) {
             return KIRI_DONE;
         }
-        if (kiriSlits_FindEndIn(grid, mesh, cells[search->seen], &end, &looks) && !kiriArray_Push(memory, ends, end)) {
+        if (kiriSlits_FindEndIn(grid, cells[search->seen], &end, &looks) && !kiriArray_Push(memory, ends, end)) {
             return KIRI_FAILED;
         }
         search->owed = (search->seen % CELLS_AN_ITEM == 0) + looks / VERTICES_AN_ITEM;
@@ -90,13 +90,13 @@ static double SquaredDistance(kiriVec2 a, kiriVec2 b)
     return kiriVec2_Dot(d, d);
 }
 
-kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, double left)
+kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriSlitEnd* end, double left)
 {
     kiriVec2 way = { -left * end->along.y, left * end->along.x };
     int32_t cell = end->cell, parts = (int32_t)(2.0 * kiriVec2_Length(way) / grid->side) + 1;
     for (int32_t k = 1; k <= parts && cell != KIRI_NONE; ++k) {
         kiriVec2 at = kiriVec2_AddScaled(end->at, (double)k / parts, way);
-        int32_t next = kiriGrid_CellAt(grid, mesh, kiriMesh_Snap(mesh, at));
+        int32_t next = kiriGrid_CellAt(grid, kiriMesh_Snap(grid->mesh, at));
         cell =
             next != KIRI_NONE && (cell == next || kiriGrid_HasStep(grid, cell, next, KIRI_DIAGONAL)) ? next : KIRI_NONE;
     }
@@ -104,12 +104,11 @@ kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriMeshData* mesh, con
 }
 
 /* Adds two sites, `reach` to each side of a slit end; false where other sites or the outline are too near. */
-static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
-                    double reach)
+static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriSlitEnd* end, double reach)
 {
     kiriSite pair[2];
     KIRI_TIMES(k, 2) {
-        pair[k] = kiriSlit_SiteBeside(grid, mesh, end, k == 0 ? reach : -reach);
+        pair[k] = kiriSlit_SiteBeside(grid, end, k == 0 ? reach : -reach);
         KIRI_EACH_WHILE(pair[k].cell != KIRI_NONE, const kiriSite, site, *sites) {
             if (site->cell == pair[k].cell || SquaredDistance(pair[k].at, site->at) < reach * reach) {
                 return false;
@@ -125,8 +124,8 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
     return true;
 }
 
-bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const kiriSlitEnds* ends, double spacing, int32_t most)
+bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriSlitEnds* ends,
+                        double spacing, int32_t most)
 {
     if (!kiriArray_Reserve(memory, sites, most)) {
         return false;
@@ -134,7 +133,7 @@ bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* gr
     KIRI_EACH_WHILE(sites->count + 2 <= most, const kiriSlitEnd, slit, *ends) {
         /* Half the spacing to both sides, or less, but no less than a square. */
         double reach = kiriMax(0.5 * spacing, grid->side);
-        while (!TryPair(sites, grid, mesh, slit, reach) && reach > grid->side) {
+        while (!TryPair(sites, grid, slit, reach) && reach > grid->side) {
             reach = kiriMax(0.5 * reach, grid->side);
         }
     }
@@ -260,18 +259,17 @@ typedef struct PlacerJob {
     kiriPlacerWork* work;
     kiriMemory* memory;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     kiriQuota* quota;
 } PlacerJob;
 
 /* Returns the site that a frame takes in a cell. In a full cell it is the middle, where the cell's weight is exactly 1.
    In other cells the middle may not be material. */
-static kiriSite SiteInCell(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+static kiriSite SiteInCell(const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     bool full = kiriGrid_Area(grid, cell) > 0.999 * grid->side * grid->side;
-    kiriMoments material = kiriGrid_Material(grid, mesh, cell);
-    return (kiriSite){ full ? kiriGrid_Middle(grid, mesh, cell) : kiriMoments_Center(&material), cell };
+    kiriMoments material = kiriGrid_Material(grid, cell);
+    return (kiriSite){ full ? kiriGrid_Middle(grid, cell) : kiriMoments_Center(&material), cell };
 }
 
 static bool IsMostlyCovered(const kiriGrid* grid, int32_t cell)
@@ -292,7 +290,7 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
     kiriField_Reset(field);
     seeds->count = 0;
     KIRI_FROM_TO(i, first, end) {
-        if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, job->mesh, seeds)) {
+        if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, seeds)) {
             return false;
         }
     }
@@ -411,7 +409,7 @@ static kiriProgress SampleFarthest(PlacerJob* job)
     work->left = best->cell == KIRI_NONE ? 0 : work->left - 1;
     if (best->cell != KIRI_NONE) {
         work->holds.data[best->cell] = sites->count;
-        KIRI_NEXT(*sites) = SiteInCell(job->grid, job->mesh, best->cell); /* Start made room */
+        KIRI_NEXT(*sites) = SiteInCell(job->grid, best->cell); /* Start made room */
     }
     if (work->left == 0) {
         return StartRound(job);
@@ -457,7 +455,7 @@ static void SumCell(PlacerJob* job, int32_t cell)
 {
     SiteTarget* target = TargetOf(job, cell);
     if (target != NULL) {
-        const kiriMoments material = kiriGrid_Material(job->grid, job->mesh, cell);
+        const kiriMoments material = kiriGrid_Material(job->grid, cell);
         double side = job->grid->side;
         int64_t area = (int64_t)(AREA_UNITS * (material.area / (side * side)) + 0.5);
         int64_t squared = ClosenessAt(job->work, cell) * ClosenessAt(job->work, cell);
@@ -472,7 +470,7 @@ static void SumCell(PlacerJob* job, int32_t cell)
 /* Takes a cell as a target's if it is nearer to the center, or as near and better. Cells come in any order. */
 static void Consider(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
-    double distance = SquaredDistance(kiriGrid_Middle(job->grid, job->mesh, cell), target->center);
+    double distance = SquaredDistance(kiriGrid_Middle(job->grid, cell), target->center);
     bool isBetter = target->cell == KIRI_NONE || distance < target->distance;
     if (target->cell != KIRI_NONE && distance == target->distance) {
         bool mostly = IsMostlyCovered(job->grid, cell);
@@ -500,14 +498,14 @@ static void AimCell(PlacerJob* job, int32_t cell)
 static kiriProgress AimNearCenters(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
-    const kiriSquares* squares = &job->mesh->squares;
+    const kiriSquares* squares = &job->grid->mesh->squares;
     for (; work->cursor < job->placer->sites.count - job->placer->oldCount; ++work->cursor) {
         SiteTarget* target = &work->targets.data[work->cursor];
         if (!kiriQuota_Take(job->quota, 1)) {
             return KIRI_MORE;
         }
         int32_t square =
-            target->isFound ? KIRI_NONE : kiriSquares_At(squares, kiriMesh_Snap(job->mesh, target->center));
+            target->isFound ? KIRI_NONE : kiriSquares_At(squares, kiriMesh_Snap(job->grid->mesh, target->center));
         KIRI_TIMES_WHILE(square != KIRI_NONE, k, 9) {
             int32_t u = square % squares->columns + k % 3 - 1, v = square / squares->columns + k / 3 - 1;
             bool isSquare = u >= 0 && u < squares->columns && v >= 0 && v < squares->rows;
@@ -541,8 +539,8 @@ static bool MoveToTargets(PlacerJob* job)
         const SiteTarget* target = &job->work->targets.data[i - placer->oldCount];
         kiriSite site = placer->sites.data[i];
         if (target->cell != KIRI_NONE) {
-            kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
-            site = SiteInCell(job->grid, job->mesh, target->cell);
+            kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, target->cell));
+            site = SiteInCell(job->grid, target->cell);
             site.at = fabs(off.x) < half && fabs(off.y) < half ? target->center : site.at;
         }
         moved =
@@ -562,7 +560,7 @@ static kiriProgress EndRound(PlacerJob* job)
         return StartRound(job);
     }
     KIRI_FROM_TO(i, job->placer->oldCount, sites->count) {
-        sites->data[i] = SiteInCell(job->grid, job->mesh, sites->data[i].cell);
+        sites->data[i] = SiteInCell(job->grid, sites->data[i].cell);
     }
     job->work->stage = PLACER_RESTS;
     return KIRI_DONE;
@@ -620,7 +618,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case AIM_PART:
         progress = VisitCells(job, part, AimCell);
         if (progress == KIRI_DONE && work->targets.data[0].cell != KIRI_NONE) {
-            KIRI_NEXT(*sites) = SiteInCell(job->grid, job->mesh, work->targets.data[0].cell);
+            KIRI_NEXT(*sites) = SiteInCell(job->grid, work->targets.data[0].cell);
         }
         return Next(job, progress, PLACER_RESTS);
     default:
@@ -629,10 +627,9 @@ static kiriProgress RunStage(PlacerJob* job)
     }
 }
 
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                            kiriQuota* quota)
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
 {
-    PlacerJob job = { placer, placer->work, memory, grid, mesh, quota };
+    PlacerJob job = { placer, placer->work, memory, grid, quota };
     kiriProgress progress = KIRI_DONE;
     while (progress == KIRI_DONE && job.work != NULL && job.work->stage != PLACER_RESTS) {
         progress = RunStage(&job);
@@ -666,8 +663,8 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     return kiriField_Start(&work->ends, memory, work->seeds.data, work->seeds.count);
 }
 
-bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      const uint8_t* allowed, int32_t count)
+bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const uint8_t* allowed,
+                      int32_t count)
 {
     kiriPlacerWork* work = PlacerWorkOf(placer, memory);
     const kiriField* known = placer->known;
@@ -709,7 +706,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->left = count;
     work->due = 0;
     PlacerStage first = count == 0 ? PLACER_RESTS : count == 1 && placer->oldCount == 0 ? SUM_PART : FLOOD_ENDS;
-    PlacerJob job = { placer, work, memory, grid, mesh, NULL };
+    PlacerJob job = { placer, work, memory, grid, NULL };
     if ((work->old == &work->flooded && !StartFlood(&job, &work->flooded, 0, placer->oldCount)) ||
         !StartEnds(placer, memory, grid, first == FLOOD_ENDS)) {
         return false;

@@ -21,8 +21,7 @@ typedef KIRI_ARRAY(kiriSlitEnd) kiriSlitEnds;
 bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along);
 
 /* Finds the first slit end in a cell; false where there is none. Adds the number of vertices that it read to *looks. */
-bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end,
-                         int32_t* looks);
+bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, int32_t* looks);
 
 /* Progress of a search that a budget may interrupt; zeros at its start. */
 typedef struct kiriSlitSearch {
@@ -33,18 +32,18 @@ typedef struct kiriSlitSearch {
 /* Finds the slit ends in these cells, one a cell at most, in the order of the cells. An item is 3 vertices, or 16
    cells. After KIRI_FAILED, start again. */
 kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
-                                const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota);
+                                const int32_t* cells, int32_t cellCount, kiriQuota* quota);
 
 /* Returns a site to the left of a slit end; left below 0: to its right. Its cell is KIRI_NONE where a cut or the outline is
    between. */
-kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end, double left);
+kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriSlitEnd* end, double left);
 
 /* Adds a pair of sites at each slit end, with a way of `spacing` from the one to the other over the end: so the line on
    which the slit would go on is a border between their regions. An end without room gets a closer pair, but not closer
    than two squares, and none where other sites are too near. In the order of the ends, until there are `most` sites,
    each in another cell. False when out of memory. */
-bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const kiriSlitEnds* ends, double spacing, int32_t most);
+bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriSlitEnds* ends,
+                        double spacing, int32_t most);
 
 typedef struct kiriPlacerWork kiriPlacerWork; /* private */
 
@@ -76,12 +75,11 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
    sites in placer->sites lie in the part, each in another cell. Sampling takes only cells that `allowed` marks (one
    byte a cell of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell
    nearest to the centroid, without relaxation: confetti comes in thousands. False when out of memory. */
-bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                      const uint8_t* allowed, int32_t count);
+bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const uint8_t* allowed,
+                      int32_t count);
 
 /* Continues the work. An item of the quota is a settled cell, or four visited ones. After KIRI_FAILED, start again. */
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                            kiriQuota* quota);
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 
 /* Work of a placer. Private to kiri_site.c and to snapshots. */
 

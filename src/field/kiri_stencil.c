@@ -246,7 +246,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 }
 
 /* Finds out which squares around have a cell, or several: of those the centres of the material are needed. */
-static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh)
+static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
 {
     int32_t count = stencil->steps.count, seen = 0;
     if (!kiriArrays_Resize(memory, count, &stencil->centers, &stencil->shares)) {
@@ -261,7 +261,7 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
     }
     stencil->full = count == 9 && seen == 511;
     KIRI_TIMES_WHILE(stencil->split, k, count) {
-        kiriMoments material = kiriGrid_Material(grid, mesh, stencil->steps.data[k].cell);
+        kiriMoments material = kiriGrid_Material(grid, stencil->steps.data[k].cell);
         stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&material));
     }
     return true;
@@ -320,13 +320,13 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
 }
 
 bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                        const kiriMeshData* mesh, int32_t cell)
+                        int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && cell < shape->spans.count);
-    stencil->middle = kiriGrid_Middle(grid, mesh, cell);
+    stencil->middle = kiriGrid_Middle(grid, cell);
     stencil->side = grid->side;
     stencil->eased = shape->eased;
-    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid, mesh) &&
+    bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid) &&
               GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
     KIRI_EACH(const int32_t, frame, stencil->frames) {
         stencil->columns.data[*frame] = 0;
@@ -382,12 +382,12 @@ static void BalanceGradients(kiriPointWeights* out)
     }
 }
 
-bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                  int32_t cell, kiriVec2 at, kiriPointWeights* out)
+bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, int32_t cell, kiriVec2 at,
+                  kiriPointWeights* out)
 {
     kiriMemory scratch = kiriMemory_Like(memory);
     kiriStencil stencil = { 0 };
-    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell) &&
+    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, cell) &&
               kiriArray_Resize(memory, out, stencil.frames.count);
     if (ok) {
         WeighLinear(&stencil, at, kiriVec2_Make(0.0, 0.0));

@@ -35,7 +35,7 @@ typedef struct kiriStencil {
 
 /* Gathers the weights around a cell. False for memory: then the stencil has no cell. */
 bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                        const kiriMeshData* mesh, int32_t cell);
+                        int32_t cell);
 
 /* Puts the weights at a local point of the cell into `values`. A vertex on the lip of a cut counts as `lean` squares
    away from it, on its own side. */
@@ -45,8 +45,8 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean);
    the cells of a stencil, then eased. Weights are never negative and sum to 1 (gradients to 0). Fails on out of memory.
    For many points of a cell, a stencil is faster. Writes only `out` and blocks of `memory`, so threads with separate
    memories may call it concurrently. */
-bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                  int32_t cell, kiriVec2 at, kiriPointWeights* out);
+bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, int32_t cell, kiriVec2 at,
+                  kiriPointWeights* out);
 
 KIRI_C_END
 

@@ -138,7 +138,6 @@ bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const
 typedef struct PointBuilder {
     kiriMemory* memory;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     const kiriShape* shape;
     const kiriMoments* material; /* of each frame's region */
     kiriIntegrationWork* work;
@@ -199,7 +198,7 @@ static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const ki
     if (!(material->area > 0.0)) {
         return true;
     }
-    return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
+    return kiriShape_At(b->shape, b->memory, b->grid, point->cell, point->at, &b->work->weights) &&
            (b->order == 1 ? AddAreaElement(b, point->at, here, material->area) : AddFour(b, point->at, material));
 }
 
@@ -214,7 +213,7 @@ static bool FloodFromPoints(PointBuilder* b)
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
     KIRI_EACH_INDEX(i, *points) {
-        if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, b->mesh, &work->seeds)) {
+        if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, &work->seeds)) {
             return false;
         }
     }
@@ -237,7 +236,7 @@ static bool DividePiece(PointBuilder* b)
     }
     KIRI_EACH(const int32_t, at, work->placer.cells) {
         int32_t cell = *at;
-        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, cell);
+        kiriMoments material = kiriGrid_Material(b->grid, cell);
         kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &material);
     }
     return true;
@@ -251,7 +250,7 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
     }
     kiriMoments material = NoMaterial;
     KIRI_EACH(const int32_t, at, work->placer.cells) {
-        kiriMoments more = kiriGrid_Material(b->grid, b->mesh, *at);
+        kiriMoments more = kiriGrid_Material(b->grid, *at);
         kiriMoments_Add(&material, &more);
         work->seen.data[*at] = 1;
     }
@@ -260,8 +259,8 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
     double share = material.area * b->perArea + 0.5;
     int32_t cells = work->placer.cells.count, count = share < 2.0 ? 1 : share < cells ? (int32_t)share : cells;
     work->placer.sites.count = 0;
-    bool ok = kiriPlacer_Start(&work->placer, b->memory, b->grid, b->mesh, NULL, count) &&
-              kiriPlacer_Run(&work->placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
+    bool ok = kiriPlacer_Start(&work->placer, b->memory, b->grid, NULL, count) &&
+              kiriPlacer_Run(&work->placer, b->memory, b->grid, &endless) == KIRI_DONE;
     if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
         return AddIntegrationPoint(b, &points->data[0], &material);
     }
@@ -275,10 +274,10 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 /* ---- All ------------------------------------------------------------------------------------------------------ */
 
 bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
-                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
-                           const kiriMoments* material, double count, int32_t order, bool planar)
+                           const kiriGrid* grid, const kiriShape* shape, const kiriMoments* material, double count,
+                           int32_t order, bool planar)
 {
-    PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
+    PointBuilder b = { memory, grid, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     double total = 0.0; /* summed in the order of cells, as are the pieces below */
     KIRI_EACH_INDEX(s, grid->squareCell) {
         KIRI_EACH_CELL(c, grid, s) {

@@ -92,8 +92,8 @@ typedef struct kiriIntegrationWork {
    have the region's second moments, at four times the cost. `material`: one entry for each frame's region. Fails on out
    of memory. */
 bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
-                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
-                           const kiriMoments* material, double count, int32_t order, bool planar);
+                           const kiriGrid* grid, const kiriShape* shape, const kiriMoments* material, double count,
+                           int32_t order, bool planar);
 
 KIRI_C_END
 

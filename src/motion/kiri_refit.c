@@ -36,9 +36,9 @@ bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const
 }
 
 bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
-                               const kiriMeshData* mesh, const kiriRegions* regions)
+                               const kiriRegions* regions)
 {
-    bool ok = ReserveOwners(ownership, memory, mesh);
+    bool ok = ReserveOwners(ownership, memory, grid->mesh);
     KIRI_EACH_WHILE(ok, const kiriSeed, change, regions->changes) {
         int32_t cell = change->cell;
         ok = !kiriGrid_IsCell(grid, cell) || NoteSquare(ownership, memory, grid->cells.data[cell].square);
@@ -95,15 +95,16 @@ static kiriTransfer* FindTransfer(kiriOwnership* ownership, kiriMemory* memory, 
 }
 
 /* Finds the material of a square that changes owner, and stages its owners. A square without cells has none. */
-static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const int32_t* owner, int32_t square)
+static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const int32_t* owner,
+                        int32_t square)
 {
+    const kiriMeshData* mesh = grid->mesh;
     int32_t cell = grid->squareCell.data[square];
     KIRI_EACH_CELL(c, grid, square) {
         int32_t from = OwnerBefore(ownership, mesh, square, grid->cells.data[c].triangle);
         if (from != KIRI_NONE && from != owner[c]) {
             kiriTransfer* transfer = FindTransfer(ownership, memory, owner[c], from);
-            kiriMoments material = kiriGrid_Material(grid, mesh, c);
+            kiriMoments material = kiriGrid_Material(grid, c);
             if (transfer == NULL) {
                 return false;
             }
@@ -145,15 +146,16 @@ static void DropStagedOwners(kiriOwnership* ownership)
     ownership->due = 0;
 }
 
-kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                             const kiriRegions* regions, bool isScratch, kiriQuota* quota)
+kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
+                             bool isScratch, kiriQuota* quota)
 {
     enum { WHOLE_AN_ITEM = 8, NODES_AN_ITEM = 8 };
     kiriOwnership* ownership = &refit->ownership;
     int32_t frameCount = regions->material.count;
     if (ownership->next == 0) {
         DropStagedOwners(ownership);
-        bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
+        bool ok =
+            ReserveOwners(ownership, memory, grid->mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
         kiriArray_Set(&ownership->first, KIRI_NONE);
         KIRI_EACH_INDEX_WHILE(ok && isScratch, s, ownership->isDirty) {
             ok = NoteSquare(ownership, memory, s);
@@ -167,11 +169,11 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
            ownership->next < ownership->dirty.count) {
         int32_t square = ownership->dirty.data[ownership->next++], cell = grid->squareCell.data[square];
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-        if (!StageSquare(ownership, memory, grid, mesh, regions->field.owner.data, square)) {
+        if (!StageSquare(ownership, memory, grid, regions->field.owner.data, square)) {
             ownership->next = 0;
             return KIRI_FAILED;
         }
-        ownership->due = isDivided ? 1 + kiriSquares_CountNodes(&mesh->squares, square) / NODES_AN_ITEM
+        ownership->due = isDivided ? 1 + kiriSquares_CountNodes(&grid->mesh->squares, square) / NODES_AN_ITEM
                                    : ownership->next % WHOLE_AN_ITEM == 0;
     }
     if (ownership->due > 0 || ownership->next < ownership->dirty.count) {
@@ -210,9 +212,8 @@ void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh)
     kiriRefit_Drop(refit);
 }
 
-void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
-                        const int32_t* of, int32_t count)
+void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriRegions* regions,
+                        const kiriKeep* triangles, const kiriKeep* frames, const int32_t* of, int32_t count)
 {
     KIRI_ASSERT(ownership->dirty.count == 0 && ownership->staged.count == 0);
     kiriTriangleOwner* owned = ownership->triangleOwners.data;
@@ -240,7 +241,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
         int32_t cell = grid->squareCell.data[of[k]];
         ownership->squares.data[of[k]].owner = cell == KIRI_NONE ? KIRI_NONE : regions->field.owner.data[cell];
     }
-    ownership->triangleCount = mesh->triangles.count;
+    ownership->triangleCount = grid->mesh->triangles.count;
 }
 
 /* ---- Fits --------------------------------------------------------------------------------------------------------

@@ -78,19 +78,18 @@ typedef struct kiriRefit {
    them before these lists are cleared. False when out of memory. */
 bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh);
 bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
-                               const kiriMeshData* mesh, const kiriRegions* regions);
+                               const kiriRegions* regions);
 
 /* Follows cells and frames that were taken away, and triangles that were renumbered. `of`: the squares that lost cells.
-   Call it after grid, mesh and regions; nothing may be dirty or staged. Cannot fail. */
-void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
-                        const int32_t* of, int32_t count);
+   Call it after grid and regions; nothing may be dirty or staged. Cannot fail. */
+void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriRegions* regions,
+                        const kiriKeep* triangles, const kiriKeep* frames, const int32_t* of, int32_t count);
 
 /* Finds the material that changes owner with the next commit, in dirty squares, or in all where `isScratch`; and makes
    room for the fits. A square with several cells is an item, plus one for eight of its triangles; eight other squares
    are one. KIRI_MORE: call again. */
-kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                             const kiriRegions* regions, bool isScratch, kiriQuota* quota);
+kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
+                             bool isScratch, kiriQuota* quota);
 
 /* Drops everything dirty, staged and fitted. */
 void kiriRefit_Drop(kiriRefit* refit);

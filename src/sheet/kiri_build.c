@@ -207,7 +207,7 @@ static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_
     kiriLatticePoint at;
     kiriSite site = { kiriSheet_ToLocal(sheet, point), KIRI_NONE };
     if (kiriSheet_ToLattice(sheet, point, &at)) {
-        site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
+        site.cell = kiriGrid_CellAt(&sheet->grid, at);
     }
     if (site.cell == KIRI_NONE) {
         KIRI_SAY(fault, "frame point %lld lies outside the material", (long long)index);

@@ -541,8 +541,8 @@ static void KeepFields(kiriDetach* detach)
     kiriGrid_Keep(&sheet->grid, sheet->memory, &rest->triangles, &rest->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &rest->frames, cells, cellCount);
     kiriShape_Keep(&sheet->shape, sheet->memory, &rest->frames, cells, cellCount);
-    kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &rest->triangles,
-                       &rest->frames, squares, squareCount);
+    kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->regions, &rest->triangles, &rest->frames,
+                       squares, squareCount);
 }
 
 static void KeepSamples(kiriDetach* detach)
@@ -695,7 +695,7 @@ static bool Commit(kiriSheetData* sheet)
         sheet->frames.data[f].site = u->placing.sites.data[f];
     }
     KIRI_EACH(kiriSample, point, sheet->points) {
-        point->cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
+        point->cell = kiriGrid_CellAround(&sheet->grid, point->at);
         point->frame = sheet->regions.field.owner.data[point->cell];
     }
     u->samples.oldVertices = sheet->mesh.vertices.count;

@@ -251,7 +251,7 @@ int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)
         return KIRI_NONE;
     }
     bool isCurrent = kiriUpdate_IsFieldCurrent(sheet->update);
-    int32_t cell = isCurrent ? kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at) : KIRI_NONE;
+    int32_t cell = isCurrent ? kiriGrid_CellOf(&sheet->grid, triangle, at) : KIRI_NONE;
     int32_t frame = cell != KIRI_NONE ? sheet->regions.field.owner.data[cell] : HeaviestAt(sheet, triangle);
     return frame != KIRI_NONE && !kiriSheet_IsGone(sheet, frame) ? frame : KIRI_NONE;
 }

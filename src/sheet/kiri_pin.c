@@ -211,7 +211,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
     KIRI_EACH_INDEX_WHILE(ok, i, sheet->pins) {
         const kiriPinData* pin = &sheet->pins.data[i];
         if (pin->type == KIRI_PIN_POINT) {
-            int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
+            int32_t cell = kiriGrid_CellAround(&sheet->grid, pin->at);
             next->pinFrame.data[i] = sheet->regions.field.owner.data[cell];
             continue;
         }

@@ -468,6 +468,7 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
     if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
         kiriPlacerWork* work = sheet->update->placing.placer.work;
         sheet->mesh.memory = &sheet->own;
+        sheet->grid.mesh = &sheet->mesh;
         if (work != NULL && work->hasOld && work->old == NULL) {
             work->old = &sheet->regions.field;
         }

@@ -180,7 +180,7 @@ static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
     KIRI_ASSERT_HAS(sheet->frames, frame);
     kiriPlacingWork* placing = &sheet->update->placing;
-    int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
+    int32_t cell = kiriGrid_CellAround(&sheet->grid, sheet->frames.data[frame].anchor);
     if (placing->flags.data[cell]) {
         cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
         while (placing->flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
@@ -317,7 +317,7 @@ static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece
     bool isFar = false, ok = true;
     KIRI_TIMES(k, 2) {
         double side = k == 0 ? 1.0 : -1.0;
-        pair[k] = kiriSlit_SiteBeside(&sheet->grid, &sheet->mesh, end, side * reach);
+        pair[k] = kiriSlit_SiteBeside(&sheet->grid, end, side * reach);
         frames[k] = SiteBeside(sheet, end, pair[k].at, piece, side, PAIR_RANGE * spacing);
         if (frames[k] == KIRI_NONE) {
             return true;
@@ -350,7 +350,7 @@ bool kiriSites_FollowTears(kiriSheetData* sheet)
         if (mayTear && vertex != KIRI_NONE && kiriSlits_WayOn(&sheet->mesh, vertex, &end.along)) {
             end.at = kiriMesh_Local(&sheet->mesh, kiriMesh_At(&sheet->mesh, vertex));
             end.along = kiriCut_IsTear(cut) ? cut->tears : end.along;
-            end.cell = kiriGrid_CellOfVertex(&sheet->grid, &sheet->mesh, vertex);
+            end.cell = kiriGrid_CellOfVertex(&sheet->grid, vertex);
             ok = MovePair(sheet, &end, kiriPiece_OfVertex(sheet, vertex));
         }
     }
@@ -400,7 +400,7 @@ static bool IsCrumbTaken(const kiriSheetData* sheet)
 kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
-    kiriProgress progress = kiriPlacer_Run(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, quota);
+    kiriProgress progress = kiriPlacer_Run(&placing->placer, sheet->memory, &sheet->grid, quota);
     placing->isPlacing = progress == KIRI_MORE;
     return progress;
 }
@@ -460,9 +460,9 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
     placer->sites.count = 0;
     placer->closeness = closeness;
     placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
-    return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &sheet->mesh, &placer->ends,
-                              spacing / closeness, count / 2) &&
-           kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, count - placer->sites.count);
+    return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &placer->ends, spacing / closeness,
+                              count / 2) &&
+           kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL, count - placer->sites.count);
 }
 
 /* Loads the piece of a cell, and its slit ends, into the placer. */
@@ -478,8 +478,8 @@ static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cel
     }
     kiriProgress progress = kiriPlacer_GoOnWithPiece(placer, sheet->memory, &sheet->grid, cells);
     if (progress == KIRI_DONE) {
-        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, &sheet->mesh,
-                                      placer->cells.data, placer->cells.count, cells);
+        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, placer->cells.data,
+                                      placer->cells.count, cells);
     }
     placing->isTaking = progress == KIRI_MORE;
     return progress;
@@ -664,7 +664,7 @@ static bool AddToPiece(kiriSheetData* sheet)
         return StartPlacing(sheet, count, SpacingOf(sheet, count));
     }
     placing->placer.known = &sheet->regions.field;
-    return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, placing->allowed.data, more);
+    return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, placing->allowed.data, more);
 }
 
 /* Stores the placed sites: they reuse the indices of sites that were placed again, then get new ones. A piece without a

@@ -139,9 +139,9 @@ static kiriProgress StageGrid(kiriSheetData* sheet, kiriQuota* cells)
 static kiriProgress DivideRegions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
-    kiriProgress progress = kiriRegions_Update(
-        &sheet->regions, sheet->memory, &sheet->grid, &sheet->mesh, u->placing.sites.data, u->placing.sites.count,
-        u->placing.moves.data + u->placing.movesSeen, u->placing.moves.count - u->placing.movesSeen, cells);
+    kiriProgress progress = kiriRegions_Update(&sheet->regions, sheet->memory, &sheet->grid, u->placing.sites.data,
+                                               u->placing.sites.count, u->placing.moves.data + u->placing.movesSeen,
+                                               u->placing.moves.count - u->placing.movesSeen, cells);
     if (progress == KIRI_DONE) {
         u->placing.movesSeen = u->placing.moves.count;
     }
@@ -179,12 +179,11 @@ static kiriProgress StageRegions(kiriSheetData* sheet, kiriQuota* cells)
 static kiriProgress WeighCells(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
-    kiriProgress progress = kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions,
-                                             u->placing.sites.data, u->placing.sites.count, u->placing.moves.data,
-                                             u->placing.moves.count, cells);
+    kiriProgress progress =
+        kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->regions, u->placing.sites.data,
+                         u->placing.sites.count, u->placing.moves.data, u->placing.moves.count, cells);
     if (progress == KIRI_DONE) {
-        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->mesh,
-                                       &sheet->regions)) {
+        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->regions)) {
             return KIRI_FAILED;
         }
         kiriGrid_ClearChanges(&sheet->grid);
@@ -242,8 +241,8 @@ static kiriProgress StageShape(kiriSheetData* sheet, kiriQuota* cells)
         sheet->update->step = MAKE_LINKS;
     }
     const kiriSites* sites = &sheet->update->placing.sites;
-    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, sites->data,
-                            sites->count, cells);
+    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->regions, sites->data, sites->count,
+                            cells);
 }
 
 /* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
@@ -255,7 +254,7 @@ static bool MoveCollisionPoints(kiriSheetData* sheet)
     KIRI_EACH(const kiriReweighed, staged, sheet->pointSkin.staged) {
         int32_t point = staged->sample;
         kiriLatticePoint at = sheet->points.data[point].at;
-        kiriSample moved = { at, kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at), point };
+        kiriSample moved = { at, kiriGrid_CellAround(&sheet->grid, at), point };
         if (!kiriArray_Push(sheet->memory, &u->samples.movedPoints, moved)) {
             return false;
         }
@@ -278,7 +277,7 @@ static bool MarkPiecesWithPoints(kiriSheetData* sheet)
     }
     u->placing.whole = NeedsPoints(sheet) ? kiriMesh_Area(&sheet->mesh) : 0.0;
     KIRI_EACH_WHILE(NeedsPoints(sheet), const kiriSample, point, sheet->points) {
-        int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
+        int32_t cell = kiriGrid_CellAround(&sheet->grid, point->at);
         u->placing.marks.data[u->next.framePiece.data[sheet->regions.field.owner.data[cell]]] = 1;
     }
     return true;
@@ -289,11 +288,11 @@ static bool AddCollisionPoints(kiriSheetData* sheet)
     kiriUpdate* u = sheet->update;
     KIRI_EACH(const kiriSite, site, u->placing.placer.sites) {
         int32_t cell = site->cell, sample = sheet->points.count + u->samples.newPoints.count;
-        kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell);
-        cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the anchor may lie in a neighboring cell */
+        kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, cell);
+        cell = kiriGrid_CellAround(&sheet->grid, at); /* the anchor may lie in a neighboring cell */
         kiriSample point = { at, cell, KIRI_NONE };
         if (!kiriArray_Push(sheet->memory, &u->samples.newPoints, point) ||
-            !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, sample, cell,
+            !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, sample, cell,
                             kiriMesh_Local(&sheet->mesh, point.at))) {
             return false;
         }
@@ -312,10 +311,9 @@ static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* sample
         kiriPlacer* placer = &u->placing.placer;
         int32_t cell = u->placing.sites.data[u->next.pieces.data[u->placing.at].frame].cell;
         placer->sites.count = u->placing.isPlacing ? placer->sites.count : 0;
-        if (!u->placing.isPlacing &&
-            (!kiriPlacer_TakePiece(placer, sheet->memory, &sheet->grid, cell) ||
-             !kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
-                               kiriSites_ShareOf(sheet, sheet->settings.collisionPoints)))) {
+        if (!u->placing.isPlacing && (!kiriPlacer_TakePiece(placer, sheet->memory, &sheet->grid, cell) ||
+                                      !kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL,
+                                                        kiriSites_ShareOf(sheet, sheet->settings.collisionPoints)))) {
             return KIRI_FAILED;
         }
         kiriProgress progress = kiriSites_RunPlacer(sheet, samples);
@@ -339,8 +337,7 @@ static kiriProgress JoinPieces(kiriSheetData* sheet, kiriQuota* samples)
 
 static kiriSampleSource VertexSource(kiriSheetData* sheet)
 {
-    return (
-        kiriSampleSource){ sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, &sheet->vertexSkin, NULL, NULL };
+    return (kiriSampleSource){ sheet->memory, &sheet->shape, &sheet->grid, &sheet->vertexSkin, NULL, NULL };
 }
 
 static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
@@ -403,8 +400,8 @@ static bool BuildAreaElements(kiriSheetData* sheet)
         return kiriAffine_Build(&u->next.areaElements, sheet->memory, sheet->links.next.data, sheet->links.next.count,
                                 u->material.data, u->placing.sites.count, planar);
     case KIRI_MODEL_POINTS:
-        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->mesh,
-                                     &sheet->shape, u->material.data, sheet->settings.integrationPoints,
+        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->shape,
+                                     u->material.data, sheet->settings.integrationPoints,
                                      sheet->settings.integrationOrder, planar);
     default:
         return true;
@@ -431,8 +428,7 @@ static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* sampl
     kiriUpdate* u = sheet->update;
     u->newFrames.count = 0;
     u->due = 0;
-    return kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch,
-                           samples);
+    return kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->regions, u->isScratch, samples);
 }
 
 /* Finds the anchors of new frames and the triangles that they take their motion from. */
@@ -454,7 +450,7 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
             return KIRI_DONE;
         }
         int32_t cell = u->placing.sites.data[sheet->frames.count + u->newFrames.count].cell;
-        kiriNewFrame frame = { kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell), KIRI_NONE };
+        kiriNewFrame frame = { kiriGrid_Anchor(&sheet->grid, cell), KIRI_NONE };
         frame.triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
         frame.triangle = frame.triangle == KIRI_NONE ? sheet->grid.cells.data[cell].triangle : frame.triangle;
         KIRI_NEXT(u->newFrames) = frame;
@@ -782,7 +778,7 @@ static void CommitFrames(kiriSheetData* sheet)
         kiriVec2 was = frame->site.at;
         frame->site = u->placing.sites.data[i];
         if (i < u->placing.sites.count - u->newFrames.count && memcmp(&was, &frame->site.at, sizeof(was)) != 0) {
-            frame->anchor = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, frame->site.cell); /* it followed a tear */
+            frame->anchor = kiriGrid_Anchor(&sheet->grid, frame->site.cell); /* it followed a tear */
         }
         if (sheet->regions.dirty.data[i]) {
             double before = frame->mass;

@@ -64,12 +64,12 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     return true;
 }
 
-bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at)
+bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid, int32_t sample,
+                    int32_t cell, kiriVec2 at)
 {
     kiriMemory scratch = kiriMemory_Like(memory);
     kiriStencil stencil = { 0 };
-    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
+    bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, cell);
     if (ok) {
         kiriStencil_Weigh(&stencil, at, kiriVec2_Make(0.0, 0.0));
         ok = StageWeights(skin, memory, &stencil, sample);
@@ -279,7 +279,7 @@ kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* sou
                                kiriQuota* quota)
 {
     enum { CHANGES_AN_ITEM = 16 };
-    const kiriMeshData* mesh = source->mesh;
+    const kiriMeshData* mesh = source->grid->mesh;
     int32_t cells = source->shape->changes.count, squares = cells + refresh->noted.count;
     int32_t count = squares + mesh->vertices.count - firstVertex;
     refresh->oldCount = firstVertex;
@@ -313,16 +313,16 @@ kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* sou
 static bool WeighSample(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
 {
     const kiriGrid* grid = source->grid;
-    const kiriMeshData* mesh = source->mesh;
+    const kiriMeshData* mesh = source->grid->mesh;
     kiriStencil* stencil = &refresh->stencil;
     bool isVertex = source->places == NULL;
     kiriLatticePoint at = isVertex ? kiriMesh_At(mesh, sample) : source->points->data[sample].at;
     KIRI_ASSERT_HAS(grid->squareCell, square);
     int32_t cell = grid->squareCell.data[square];
     if (grid->cells.data[cell].next != KIRI_NONE) {
-        cell = isVertex ? kiriGrid_CellOfVertex(grid, mesh, sample) : kiriGrid_CellAround(grid, mesh, at);
+        cell = isVertex ? kiriGrid_CellOfVertex(grid, sample) : kiriGrid_CellAround(grid, at);
     }
-    if (stencil->cell != cell && !kiriStencil_Gather(stencil, source->memory, source->shape, grid, mesh, cell)) {
+    if (stencil->cell != cell && !kiriStencil_Gather(stencil, source->memory, source->shape, grid, cell)) {
         return false;
     }
     kiriVec2 lean = stencil->split && isVertex ? kiriMesh_Lean(mesh, sample) : kiriVec2_Make(0.0, 0.0);
@@ -394,8 +394,8 @@ static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSour
 {
     kiriStencil* mean = &refresh->mean;
     refresh->joined.count = 0;
-    bool isJoined = source->places == NULL && source->mesh->folds.count > 0;
-    bool ok = !isJoined || ListJoined(&refresh->joined, source->memory, source->mesh, sample);
+    bool isJoined = source->places == NULL && source->grid->mesh->folds.count > 0;
+    bool ok = !isJoined || ListJoined(&refresh->joined, source->memory, source->grid->mesh, sample);
     if (ok && refresh->joined.count < 2) {
         return WeighSample(refresh, source, square, sample) ? &refresh->stencil : NULL;
     }
@@ -434,7 +434,7 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
 kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* source, kiriQuota* quota)
 {
     enum { SQUARES_AN_ITEM = 16 };
-    const kiriMeshData* mesh = source->mesh;
+    const kiriMeshData* mesh = source->grid->mesh;
     const kiriPlaces* places = source->places;
     if (places != NULL && places->next.count == 0) {
         return KIRI_DONE;

@@ -44,8 +44,8 @@ typedef struct kiriMotion {
 
 /* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit. New
    samples, from `spans.count` on, are staged in ascending order. Returns false on out of memory. */
-bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                    const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
+bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid, int32_t sample,
+                    int32_t cell, kiriVec2 at);
 
 /* Commit gives the staged weights to the samples; Drop drops them. Both cannot fail. */
 void kiriSkin_Commit(kiriSkin* skin);
@@ -84,7 +84,6 @@ typedef struct kiriSampleSource {
     kiriMemory* memory;
     const kiriShape* shape;
     const kiriGrid* grid;
-    const kiriMeshData* mesh;
     kiriSkin* skin;
     const kiriPlaces* places; /* null: the samples are the vertices */
     const kiriSamples* points;

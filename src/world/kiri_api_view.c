@@ -258,13 +258,12 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
                  "a cut is being worked on; ask again when its work is done");
     kiriLatticePoint at;
     bool inRange = kiriSheet_ToLattice(found, restPoint, &at);
-    int32_t cell = inRange ? kiriGrid_CellAt(&found->grid, &found->mesh, at) : KIRI_NONE;
+    int32_t cell = inRange ? kiriGrid_CellAt(&found->grid, at) : KIRI_NONE;
     KIRI_CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights point = { 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     kiriCall_BeginCallbacks(world);
-    bool ok = kiriShape_At(&found->shape, &scratch, &found->grid, &found->mesh, cell,
-                           kiriMesh_Local(&found->mesh, at), &point);
+    bool ok = kiriShape_At(&found->shape, &scratch, &found->grid, cell, kiriMesh_Local(&found->mesh, at), &point);
     for (int32_t i = 0; ok && i < point.count && i < capacity; ++i) {
         KIRI_ASSERT(point.data[i].frame >= 0 && point.data[i].frame < found->frames.count);
         frames[i] = found->frames.data[point.data[i].frame].id;
