@@ -141,7 +141,7 @@ static inline void Scene_UpdateGrid(Scene* scene)
 {
     kiriQuota quota = { INT64_MAX, 0, 0, false };
     kiriMesh_Commit(&scene->mesh);
-    assert_int_equal(kiriGrid_Update(&scene->grid, &quota), KIRI_DONE);
+    assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&scene->mesh.squares);
     assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count, KIRI_FIELD_OWNERS));
 }

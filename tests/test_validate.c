@@ -185,7 +185,7 @@ static const char* CorruptCells(kiriWorld* world, kiriSheetData* s, int way)
     WAY("grid: ", grid->nodeCell.data[node] = grid->nodeCell.data[node] == c ? other : c)
     WAY("is of cell", grid->nodeCell.data[node] = grid->squareCell.data[square > 0 ? 0 : 1])
     WAY("grid: cell", grid->cells.data[other].triangle += 1)
-    WAY("the mesh", kiriGrid_OwnMaterial(grid, s->memory, c)->area *= 1.0 + 1e-4)
+    WAY("the mesh", kiriGrid_OwnMaterial(grid, c)->area *= 1.0 + 1e-4)
     WAY("counted", grid->cells.data[c].next = KIRI_NONE)
     WAY("counted", grid->cellCount += 1)
     WAY("free cell", grid->freeCell = c)
@@ -201,10 +201,10 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     kiriStep* steps = grid->steps.data;
     int32_t c = DividedCell(grid), f = grid->cells.data[c].firstFace;
     kiriStepRun* run = &grid->runs.data[c];
-    WAY("wide", kiriGrid_OwnStretch(grid, s->memory, f)->width = 0.0)
+    WAY("wide", kiriGrid_OwnStretch(grid, f)->width = 0.0)
     WAY("on its side",
-        kiriGrid_OwnStretch(grid, s->memory, f)->middle.x += grid->side;
-        kiriGrid_OwnStretch(grid, s->memory, f)->middle.y += grid->side)
+        kiriGrid_OwnStretch(grid, f)->middle.x += grid->side;
+        kiriGrid_OwnStretch(grid, f)->middle.y += grid->side)
     WAY("between squares", grid->faces.data[f].kind ^= 1)
     WAY("cells list", grid->cells.data[c].firstFace = grid->faces.data[f].next[grid->faces.data[f].cell[1] == c])
     WAY("free face", grid->freeFace = f)

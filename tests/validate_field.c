@@ -177,7 +177,7 @@ static bool Check_Face(Check* check, const kiriSheetData* sheet, int32_t f)
     int32_t a = grid->cells.data[face->cell[0]].square, b = grid->cells.data[face->cell[1]].square;
     REQUIRE(a + apart == b && (axis == 1 || b % sheet->mesh.squares.columns != 0),
             "face %d is between squares %d and %d", f, a, b);
-    kiriStretch s = kiriGrid_Stretch(grid, &sheet->mesh, f);
+    kiriStretch s = kiriGrid_Stretch(grid, f);
     REQUIRE(s.width > 0.0 && s.width < grid->side * (1.0 + 1e-9), "face %d is %g wide", f, s.width);
     REQUIRE(s.moment > 0.0 || s.width < 1e-100, "face %d has moment %g", f, s.moment);
     kiriVec2 from = kiriMesh_Local(&sheet->mesh, kiriSquares_Corner(&sheet->mesh.squares, b));
@@ -380,7 +380,7 @@ static kiriSeed NearestWay(const kiriSheetData* sheet, int32_t c)
     kiriSeed best = { c, KIRI_FAR, INT32_MAX };
     kiriSteps steps = kiriGrid_GetSteps(grid, c);
     if (siteAt[c] != KIRI_NONE) {
-        best = kiriSite_SeedAt(&sheet->frames.data[siteAt[c]].site, siteAt[c], grid, &sheet->mesh, c);
+        best = kiriSite_SeedAt(&sheet->frames.data[siteAt[c]].site, siteAt[c], grid, c);
     }
     for (int32_t k = 0; k < steps.end[2]; ++k) {
         kiriStep step = kiriSteps_At(&steps, k);
@@ -389,7 +389,7 @@ static kiriSeed NearestWay(const kiriSheetData* sheet, int32_t c)
         best = IsNearerSeed(way, best) ? way : best;
         if (siteAt[c] == KIRI_NONE && siteAt[step.cell] != KIRI_NONE) {
             int32_t site = siteAt[step.cell];
-            kiriSeed seed = kiriSite_SeedAt(&sheet->frames.data[site].site, site, grid, &sheet->mesh, c);
+            kiriSeed seed = kiriSite_SeedAt(&sheet->frames.data[site].site, site, grid, c);
             best = seed.distance != KIRI_FAR && IsNearerSeed(seed, best) ? seed : best;
         }
     }
@@ -454,7 +454,7 @@ static bool Check_Tallies(Check* check, const kiriSheetData* sheet)
     REQUIRE(sums != NULL, "no memory");
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (kiriGrid_IsCell(grid, c)) {
-            kiriMoments material = kiriGrid_Material(grid, &sheet->mesh, c);
+            kiriMoments material = kiriGrid_Material(grid, c);
             kiriTally_Add(&sums[sheet->regions.field.owner.data[c]], &material, 1, extent);
         }
     }

@@ -27,14 +27,15 @@ enum { CELL_MADE = 1, CELL_MATERIAL = 2, CELL_STEPS = 4, CELL_EDGES = 8 };
 /* ---- Lists of an update ------------------------------------------------------------------------------------------ */
 
 /* Appends to a list. Without memory the update fails when the current item is done. */
-static void AppendIndex(kiriGrid* grid, kiriMemory* memory, kiriIndices* list, int32_t index)
+static void AppendIndex(kiriGrid* grid, kiriIndices* list, int32_t index)
 {
-    bool ok = kiriArray_Push(memory, list, index);
+    bool ok = kiriArray_Push(grid->mesh->memory, list, index);
     grid->work->outOfMemory = grid->work->outOfMemory || !ok;
 }
 
-/* Sets a flag of a square until the end of the update; false if it was set. */
-static bool FlagSquare(kiriGrid* grid, kiriMemory* memory, int32_t square, uint8_t flag)
+/* Sets a flag of a square until the end of the update; false if it was set. Appends the square to the flag's list, if it
+   has one. */
+static bool FlagSquare(kiriGrid* grid, int32_t square, uint8_t flag, kiriIndices* list)
 {
     KIRI_ASSERT(grid->work->running && square >= 0 && square < grid->work->squareFlags.count);
     uint8_t* flags = &grid->work->squareFlags.data[square];
@@ -42,32 +43,33 @@ static bool FlagSquare(kiriGrid* grid, kiriMemory* memory, int32_t square, uint8
         return false;
     }
     if (*flags == 0) {
-        AppendIndex(grid, memory, &grid->work->flagged, square);
+        AppendIndex(grid, &grid->work->flagged, square);
     }
     *flags |= flag;
+    if (list != NULL) {
+        AppendIndex(grid, list, square);
+    }
     return true;
 }
 
 /* Appends a cell to a list of changes, once. */
-static void RecordCell(kiriGrid* grid, kiriMemory* memory, int32_t cell, uint8_t flag, kiriIndices* list)
+static void RecordCell(kiriGrid* grid, int32_t cell, uint8_t flag, kiriIndices* list)
 {
     KIRI_ASSERT(grid->work->running && kiriGrid_IsCell(grid, cell));
     if ((grid->work->cellFlags.data[cell] & flag) == 0) {
         grid->work->cellFlags.data[cell] |= flag;
-        AppendIndex(grid, memory, list, cell);
+        AppendIndex(grid, list, cell);
     }
 }
 
 /* Records that a face came or goes: steps of its cells, and of cells around, may change. From scratch all are made. */
-static void RecordLink(kiriGrid* grid, kiriMemory* memory, const kiriFace* face)
+static void RecordLink(kiriGrid* grid, const kiriFace* face)
 {
     KIRI_TIMES_WHILE(!grid->work->fromScratch, k, 2) {
         KIRI_ASSERT(kiriGrid_IsCell(grid, face->cell[k]));
         int32_t square = grid->cells.data[face->cell[k]].square;
-        RecordCell(grid, memory, face->cell[k], CELL_STEPS, &grid->changes.steps);
-        if (FlagSquare(grid, memory, square, SQUARE_LINKS_DIRTY)) {
-            AppendIndex(grid, memory, &grid->work->linksDirty, square);
-        }
+        RecordCell(grid, face->cell[k], CELL_STEPS, &grid->changes.steps);
+        FlagSquare(grid, square, SQUARE_LINKS_DIRTY, &grid->work->linksDirty);
     }
 }
 
@@ -139,12 +141,12 @@ static void GiveItemBack(kiriIndices* unused, int32_t index)
     }
 }
 
-kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell)
+kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT_HAS(grid->cells, cell);
     int32_t* index = &grid->cells.data[cell].material;
     if (*index == KIRI_NONE) {
-        *index = TakeUnusedItem(memory, &grid->materials, sizeof(kiriMoments), &grid->unusedMaterials);
+        *index = TakeUnusedItem(grid->mesh->memory, &grid->materials, sizeof(kiriMoments), &grid->unusedMaterials);
     }
     return *index == KIRI_NONE ? NULL : &grid->materials.data[*index];
 }
@@ -156,12 +158,13 @@ static void DropMaterial(kiriGrid* grid, int32_t cell)
     grid->cells.data[cell].material = KIRI_NONE;
 }
 
-kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face)
+kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, int32_t face)
 {
     KIRI_ASSERT_HAS(grid->faces, face);
     kiriFace* at = &grid->faces.data[face];
     if (!kiriFace_HasOwnStretch(at)) {
-        int32_t index = TakeUnusedItem(memory, &grid->stretches, sizeof(kiriStretch), &grid->unusedStretches);
+        int32_t index =
+            TakeUnusedItem(grid->mesh->memory, &grid->stretches, sizeof(kiriStretch), &grid->unusedStretches);
         at->kind = 2 * (index + 1) + kiriFace_Axis(at);
     }
     return kiriFace_HasOwnStretch(at) ? &grid->stretches.data[StretchIndexOf(at)] : NULL;
@@ -178,7 +181,7 @@ static void DropStretch(kiriGrid* grid, int32_t face)
 /* ---- Lists of faces ---------------------------------------------------------------------------------------------- */
 
 /* Adds a face of the whole side; KIRI_NONE for memory. */
-static int32_t AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int32_t axis)
+static int32_t AddFace(kiriGrid* grid, int32_t a, int32_t b, int32_t axis)
 {
     KIRI_ASSERT(a != b && kiriGrid_IsCell(grid, a) && kiriGrid_IsCell(grid, b));
     kiriCell *cellA = &grid->cells.data[a], *cellB = &grid->cells.data[b];
@@ -187,13 +190,13 @@ static int32_t AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b,
     if (f != KIRI_NONE) {
         grid->freeFace = grid->faces.data[f].next[0];
         grid->faces.data[f] = face;
-    } else if (kiriArray_Push(memory, &grid->faces, face)) {
+    } else if (kiriArray_Push(grid->mesh->memory, &grid->faces, face)) {
         f = grid->faces.count - 1;
     } else {
         return KIRI_NONE;
     }
     cellA->firstFace = cellB->firstFace = f;
-    RecordLink(grid, memory, &face);
+    RecordLink(grid, &face);
     return f;
 }
 
@@ -218,7 +221,7 @@ static void RemoveFace(kiriGrid* grid, int32_t f)
 
 /* Finds or adds the face between two cells; KIRI_NONE for memory. Walks the lists of both at once, since a cell with
    many faces, a comb, most often touches cells with few. */
-static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int32_t axis)
+static int32_t FaceBetween(kiriGrid* grid, int32_t a, int32_t b, int32_t axis)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, a) && kiriGrid_IsCell(grid, b));
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
@@ -233,20 +236,20 @@ static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_
         f = kiriFace_Next(ofA, a);
         g = kiriFace_Next(ofB, b);
     }
-    return AddFace(grid, memory, a, b, axis);
+    return AddFace(grid, a, b, axis);
 }
 
 /* ---- Room for steps ---------------------------------------------------------------------------------------------- */
 
 /* Gives a cell room for this number of steps, and at least for as many as most cells have: so most runs never move. */
-static bool ResizeSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
+static bool ResizeSteps(kiriGrid* grid, int32_t c, int32_t count)
 {
     KIRI_ASSERT(c >= 0 && c < grid->runs.count && count >= 0);
     kiriStepRun* run = &grid->runs.data[c];
     int32_t had = kiriStepRun_IsOpen(run) ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
     kiriSpan span = { had == 0 ? 0 : run->first, had == 0 ? 0 : kiriMax(had, KIRI_OPEN_STEPS) };
     int32_t room = count == 0 ? 0 : kiriMax(count, KIRI_OPEN_STEPS);
-    bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), room);
+    bool ok = kiriSpan_Resize(&span, &grid->stepRoom, grid->mesh->memory, &grid->steps, sizeof(kiriStep), room);
     KIRI_ASSERT(ok || count > 0);
     if (ok && kiriGrid_IsOpen(grid, c)) {
         grid->whole.data[c] = KIRI_SQUARE_WHOLE;
@@ -276,14 +279,14 @@ static void CollectTriangles(kiriGrid* grid, int32_t square)
     const kiriMeshData* mesh = grid->mesh;
     kiriGridWork* work = grid->work;
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
-    if (!FlagSquare(grid, mesh->memory, square, SQUARE_COLLECTED)) {
+    if (!FlagSquare(grid, square, SQUARE_COLLECTED, NULL)) {
         return;
     }
     KIRI_ASSERT(square < work->ranges.count);
     kiriNodeRange* range = &work->ranges.data[square];
     range->first = work->entries.count;
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = nodes[n].next) {
-        AppendIndex(grid, mesh->memory, &work->entries, n);
+        AppendIndex(grid, &work->entries, n);
     }
     range->end = work->entries.count;
     int32_t *entries = work->entries.data + range->first, count = range->end - range->first;
@@ -441,32 +444,33 @@ static bool FindNewCells(kiriGrid* grid, int32_t square)
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the index of a new cell, or KIRI_NONE for memory. From scratch the first cell of a square has its index. */
-static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
+static int32_t AddCell(kiriGrid* grid, int32_t square)
 {
-    const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE };
-    const kiriStepRun run = { 0 };
     kiriGridWork* work = grid->work;
     bool isOwn = work->fromScratch && grid->cells.data[square].square == KIRI_NONE;
-    int32_t c = isOwn ? square : grid->freeCell;
-    if (c != KIRI_NONE) {
-        grid->freeCell = isOwn ? grid->freeCell : grid->cells.data[c].next;
-        grid->cells.data[c] = cell;
-    } else if (kiriArray_Push(memory, &grid->cells, cell) && kiriArray_Push(memory, &grid->runs, run) &&
-               kiriArray_Push(memory, &work->cellFlags, 0) && kiriArray_Push(memory, &work->mark, 0)) {
-        c = grid->cells.count - 1;
-    } else {
-        return KIRI_NONE;
+    int32_t c = isOwn ? square : grid->freeCell, count = grid->cells.count;
+    if (c == KIRI_NONE) {
+        if (!kiriArrays_Resize(grid->mesh->memory, (int64_t)count + 1, &grid->cells, &grid->runs, &work->cellFlags,
+                               &work->mark)) {
+            return KIRI_NONE;
+        }
+        c = count;
+        grid->runs.data[c] = (kiriStepRun){ 0 };
+        work->mark.data[c] = 0;
+    } else if (!isOwn) {
+        grid->freeCell = grid->cells.data[c].next;
     }
+    grid->cells.data[c] = (kiriCell){ square, KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE };
     ++grid->cellCount;
     work->cellFlags.data[c] = 0;
-    RecordCell(grid, memory, c, CELL_MADE, &grid->changes.made);
-    RecordCell(grid, memory, c, CELL_STEPS, &grid->changes.steps);
+    RecordCell(grid, c, CELL_MADE, &grid->changes.made);
+    RecordCell(grid, c, CELL_STEPS, &grid->changes.steps);
     return c;
 }
 
-static bool StoreMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const kiriMoments* material)
+static bool StoreMaterial(kiriGrid* grid, int32_t c, const kiriMoments* material)
 {
-    kiriMoments* own = kiriGrid_OwnMaterial(grid, memory, c);
+    kiriMoments* own = kiriGrid_OwnMaterial(grid, c);
     if (own != NULL) {
         *own = *material;
     }
@@ -486,7 +490,7 @@ static bool SetMaterial(kiriGrid* grid, int32_t c, const kiriMoments* material)
     }
     if (grid->whole.data[grid->cells.data[c].square]) {
         DropMaterial(grid, c);
-    } else if (!StoreMaterial(grid, grid->mesh->memory, c, material)) {
+    } else if (!StoreMaterial(grid, c, material)) {
         return false;
     }
     if ((*flags & (CELL_MADE | CELL_MATERIAL)) != 0) {
@@ -499,23 +503,22 @@ static bool SetMaterial(kiriGrid* grid, int32_t c, const kiriMoments* material)
 /* Stores the material of a whole cell: without a square it no longer follows. */
 static bool RemoveCell(kiriGrid* grid, int32_t c)
 {
-    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT(kiriGrid_IsCell(grid, c));
     kiriCell* cell = &grid->cells.data[c];
     kiriMoments material = kiriGrid_Material(grid, c);
-    if (!StoreMaterial(grid, mesh->memory, c, &material)) {
+    if (!StoreMaterial(grid, c, &material)) {
         return false;
     }
     while (cell->firstFace != KIRI_NONE) {
-        RecordLink(grid, mesh->memory, &grid->faces.data[cell->firstFace]);
+        RecordLink(grid, &grid->faces.data[cell->firstFace]);
         RemoveFace(grid, cell->firstFace);
     }
-    ResizeSteps(grid, mesh->memory, c, 0);
+    ResizeSteps(grid, c, 0);
     cell->square = cell->next = KIRI_NONE;
     --grid->cellCount;
     grid->work->hasRemoved = true;
     if ((grid->work->cellFlags.data[c] & CELL_MADE) == 0) {
-        AppendIndex(grid, mesh->memory, &grid->changes.gone, c);
+        AppendIndex(grid, &grid->changes.gone, c);
     }
     return true;
 }
@@ -527,7 +530,7 @@ static bool ReplaceCells(kiriGrid* grid, int32_t square)
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
     KIRI_EACH(kiriNewCell, made, grid->work->newCells) {
-        made->cell = old != KIRI_NONE ? old : AddCell(grid, grid->mesh->memory, square);
+        made->cell = old != KIRI_NONE ? old : AddCell(grid, square);
         if (made->cell == KIRI_NONE || !SetMaterial(grid, made->cell, &made->material)) {
             return false;
         }
@@ -614,7 +617,7 @@ static void FillDividedSquare(kiriGrid* grid, int32_t square)
         }
     }
     KIRI_EACH_CELL(c, grid, square) {
-        RecordCell(grid, mesh->memory, c, CELL_EDGES, &grid->changes.edges);
+        RecordCell(grid, c, CELL_EDGES, &grid->changes.edges);
     }
     work->debt += 2 * COST_OF_NODE * (int64_t)(range.end - range.first);
 }
@@ -633,9 +636,7 @@ static void MakeCells(kiriGrid* grid, int32_t item)
         FillWholeSquare(grid, square);
         return;
     }
-    if (FlagSquare(grid, mesh->memory, square, SQUARE_FACES_DIRTY)) {
-        AppendIndex(grid, mesh->memory, &work->facesDirty, square);
-    }
+    FlagSquare(grid, square, SQUARE_FACES_DIRTY, &work->facesDirty);
     const kiriNewCell whole = { KIRI_NONE, KIRI_NONE, MaterialOfWhole(grid, square) };
     bool ok = isWhole ? kiriArray_Push(mesh->memory, &work->newCells, whole)
                       : JoinTriangles(grid, square) && FindNewCells(grid, square);
@@ -700,7 +701,7 @@ static void EmptyFaces(kiriGrid* grid, int32_t square, int32_t axis)
             const kiriFace* face = &grid->faces.data[f];
             if (face->cell[1] == c && kiriFace_Axis(face) == axis) {
                 kiriOldFace old = { f, kiriGrid_Stretch(grid, f) };
-                kiriStretch* own = kiriGrid_OwnStretch(grid, grid->mesh->memory, f);
+                kiriStretch* own = kiriGrid_OwnStretch(grid, f);
                 if (own == NULL || !kiriArray_Push(grid->mesh->memory, &work->oldFaces, old)) {
                     work->outOfMemory = true;
                     return;
@@ -714,13 +715,13 @@ static void EmptyFaces(kiriGrid* grid, int32_t square, int32_t axis)
 /* Adds to the face between two cells of a side whose faces were emptied. A null part: all of the side. */
 static void CoverFace(kiriGrid* grid, int32_t a, int32_t b, int32_t axis, const kiriStretch* part)
 {
-    int32_t f = FaceBetween(grid, grid->mesh->memory, a, b, axis);
+    int32_t f = FaceBetween(grid, a, b, axis);
     if (f != KIRI_NONE && part == NULL) {
         DropStretch(grid, f);
         return;
     }
     bool isNew = f != KIRI_NONE && !kiriFace_HasOwnStretch(&grid->faces.data[f]);
-    kiriStretch* sum = f != KIRI_NONE ? kiriGrid_OwnStretch(grid, grid->mesh->memory, f) : NULL;
+    kiriStretch* sum = f != KIRI_NONE ? kiriGrid_OwnStretch(grid, f) : NULL;
     if (sum == NULL) {
         grid->work->outOfMemory = true;
         return;
@@ -755,18 +756,17 @@ static void CoverDividedSide(kiriGrid* grid, int32_t before, int32_t square, int
 /* Removes the emptied faces that no triangle covers any more, and records those that have changed. */
 static void CompareFaces(kiriGrid* grid)
 {
-    const kiriMeshData* mesh = grid->mesh;
     KIRI_EACH(const kiriOldFace, old, grid->work->oldFaces) {
         const kiriFace* face = &grid->faces.data[old->face];
         KIRI_ASSERT(face->cell[0] != KIRI_NONE && old->was.width > 0.0);
         const kiriStretch was = old->was, is = kiriGrid_Stretch(grid, old->face);
         if (is.width == 0.0) {
-            RecordLink(grid, mesh->memory, face);
+            RecordLink(grid, face);
             RemoveFace(grid, old->face);
         } else if (is.width != was.width || is.moment != was.moment || is.middle.x != was.middle.x ||
                    is.middle.y != was.middle.y) {
-            RecordCell(grid, mesh->memory, face->cell[0], CELL_STEPS, &grid->changes.steps);
-            RecordCell(grid, mesh->memory, face->cell[1], CELL_STEPS, &grid->changes.steps);
+            RecordCell(grid, face->cell[0], CELL_STEPS, &grid->changes.steps);
+            RecordCell(grid, face->cell[1], CELL_STEPS, &grid->changes.steps);
         }
     }
 }
@@ -864,26 +864,26 @@ static void SpreadDirty(kiriGrid* grid, int32_t item)
         int32_t reach = StepColumns(v);
         for (int32_t u = kiriMax(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             int32_t square = center + v * squares->columns + u;
-            bool isNew = FlagSquare(grid, mesh->memory, square, SQUARE_STEPS_DIRTY);
+            bool isNew = FlagSquare(grid, square, SQUARE_STEPS_DIRTY, NULL);
             for (int32_t c = grid->squareCell.data[square]; isNew && c != KIRI_NONE; c = grid->cells.data[c].next) {
-                AppendIndex(grid, mesh->memory, &grid->work->stepsDirty, c);
+                AppendIndex(grid, &grid->work->stepsDirty, c);
             }
         }
     }
     grid->work->debt += COST_OF_STEPS;
 }
 
-static void AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
+static void AddStep(kiriGrid* grid, kiriStep step)
 {
-    bool ok = kiriArray_Push(memory, &grid->work->steps, step);
+    bool ok = kiriArray_Push(grid->mesh->memory, &grid->work->steps, step);
     grid->work->outOfMemory = grid->work->outOfMemory || !ok;
 }
 
-static void AddSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps, int32_t from, int32_t end)
+static void AddSteps(kiriGrid* grid, const kiriSteps* steps, int32_t from, int32_t end)
 {
     KIRI_ASSERT(0 <= from && from <= end && end <= steps->end[2]);
     KIRI_FROM_TO(s, from, end) {
-        AddStep(grid, memory, kiriSteps_At(steps, s));
+        AddStep(grid, kiriSteps_At(steps, s));
     }
 }
 
@@ -897,7 +897,7 @@ static bool AreStepsSame(const kiriSteps* a, const kiriSteps* b)
 }
 
 /* Replaces the steps of a cell by those in `work`: straight ones to `straight`, diagonal ones to `near`. */
-static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
+static void SetSteps(kiriGrid* grid, int32_t c, int32_t straight, int32_t near)
 {
     int32_t count = grid->work->steps.count;
     kiriSteps has = kiriGrid_GetSteps(grid, c), is = { grid->work->steps.data, 0, { straight, near, count } };
@@ -905,7 +905,7 @@ static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
     if (AreStepsSame(&has, &is)) {
         return;
     }
-    if (!ResizeSteps(grid, memory, c, count)) {
+    if (!ResizeSteps(grid, c, count)) {
         grid->work->outOfMemory = true;
         return;
     }
@@ -915,7 +915,7 @@ static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
     }
     run->end[0] = run->first + straight;
     run->end[1] = run->first + near;
-    RecordCell(grid, memory, c, CELL_STEPS, &grid->changes.steps);
+    RecordCell(grid, c, CELL_STEPS, &grid->changes.steps);
 }
 
 /* Compares two steps from the same cell: the way tells the order of squares. */
@@ -969,7 +969,7 @@ static int32_t NewMark(kiriGridWork* work)
 }
 
 /* Adds steps to cells reached along u, then v, and also along v, then u: both ways around the corner. */
-static void AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
+static void AddDiagonalSteps(kiriGrid* grid, int32_t c)
 {
     const kiriFace* faces = grid->faces.data;
     const kiriCell* cells = grid->cells.data;
@@ -990,7 +990,7 @@ static void AddDiagonalSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
                     mark[step.cell] = first;
                 } else if (mark[step.cell] == first) {
                     mark[step.cell] = first + 1;
-                    AddStep(grid, memory, step);
+                    AddStep(grid, step);
                 }
             }
         }
@@ -1015,9 +1015,9 @@ static void MakeNearSteps(kiriGrid* grid, int32_t item)
             kiriSteps had = kiriGrid_GetSteps(grid, c), has = kiriGrid_OpenSteps(grid, c);
             KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->whole.data[grid->cells.data[c].square]);
             if (!AreStepsSame(&had, &has)) {
-                RecordCell(grid, mesh->memory, c, CELL_STEPS, &grid->changes.steps);
+                RecordCell(grid, c, CELL_STEPS, &grid->changes.steps);
             }
-            ResizeSteps(grid, mesh->memory, c, 0);
+            ResizeSteps(grid, c, 0);
             grid->runs.data[c].first = KIRI_NONE;
             grid->whole.data[c] = KIRI_SQUARE_OPEN;
         }
@@ -1025,20 +1025,20 @@ static void MakeNearSteps(kiriGrid* grid, int32_t item)
     }
     work->steps.count = 0;
     KIRI_EACH_FACE(f, grid, c) {
-        AddStep(grid, mesh->memory, StraightStep(&grid->faces.data[f], c));
+        AddStep(grid, StraightStep(&grid->faces.data[f], c));
     }
     int32_t straight = work->steps.count;
-    AddDiagonalSteps(grid, mesh->memory, c);
+    AddDiagonalSteps(grid, c);
     int32_t near = work->steps.count;
     SortSteps(grid, 0);
     kiriSteps has = kiriGrid_GetSteps(grid, c);
-    AddSteps(grid, mesh->memory, &has, has.end[1], has.end[2]);
-    SetSteps(grid, mesh->memory, c, straight, near);
-    AppendIndex(grid, mesh->memory, &work->knightsDirty, c);
+    AddSteps(grid, &has, has.end[1], has.end[2]);
+    SetSteps(grid, c, straight, near);
+    AppendIndex(grid, &work->knightsDirty, c);
 }
 
 /* Adds steps to cells reached straight, then diagonally, and also diagonally, then straight: a slit is never jumped. */
-static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps)
+static void AddKnightSteps(kiriGrid* grid, const kiriSteps* steps)
 {
     int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     KIRI_TIMES(i, steps->end[1]) {
@@ -1049,7 +1049,7 @@ static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
             kiriStep next = kiriSteps_At(&on, j);
             if (!isStraight && mark[next.cell] == first) {
                 mark[next.cell] = first + 1;
-                AddStep(grid, memory, JoinedStep(to, next, KIRI_UNIT_KNIGHT));
+                AddStep(grid, JoinedStep(to, next, KIRI_UNIT_KNIGHT));
             } else if (isStraight && (to.u == next.u || to.v == next.v)) {
                 mark[next.cell] = first;
             }
@@ -1060,16 +1060,15 @@ static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
 
 static void MakeKnightSteps(kiriGrid* grid, int32_t item)
 {
-    const kiriMeshData* mesh = grid->mesh;
     KIRI_ASSERT_HAS(grid->work->knightsDirty, item);
     int32_t c = grid->work->knightsDirty.data[item];
     kiriSteps has = kiriGrid_GetSteps(grid, c);
     grid->work->debt += COST_OF_STEPS;
     grid->work->steps.count = 0;
-    AddSteps(grid, mesh->memory, &has, 0, has.end[1]);
-    AddKnightSteps(grid, mesh->memory, &has);
+    AddSteps(grid, &has, 0, has.end[1]);
+    AddKnightSteps(grid, &has);
     SortSteps(grid, has.end[1]);
-    SetSteps(grid, mesh->memory, c, has.end[0], has.end[1]);
+    SetSteps(grid, c, has.end[0], has.end[1]);
 }
 
 /* ---- What an update changes -------------------------------------------------------------------------------------- */
@@ -1281,7 +1280,7 @@ void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash)
     }
 }
 
-void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory)
+void kiriGrid_DropScratch(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
     kiriGridWork* work = grid->work;
@@ -1290,9 +1289,9 @@ void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory)
                                    &work->linksDirty, &work->stepsDirty,   &work->flagged,  &work->entries,
                                    &work->parent,     &work->knightsDirty };
     for (size_t k = 0; k < sizeof(lists) / sizeof(lists[0]); ++k) {
-        kiriArray_Release(memory, lists[k]);
+        kiriArray_Release(grid->mesh->memory, lists[k]);
     }
-    kiriArray_Shorten(memory, &grid->steps, sizeof(*grid->steps.data));
+    kiriArray_Shorten(grid->mesh->memory, &grid->steps, sizeof(*grid->steps.data));
 }
 
 void kiriGrid_Reset(kiriGrid* grid)
@@ -1310,8 +1309,8 @@ void kiriGrid_Reset(kiriGrid* grid)
     }
 }
 
-void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices,
-                   const int32_t* gone, int32_t goneCount)
+void kiriGrid_Keep(kiriGrid* grid, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* gone,
+                   int32_t goneCount)
 {
     KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
     KIRI_TIMES(k, goneCount) {
@@ -1326,7 +1325,7 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
         while (cell->firstFace != KIRI_NONE) {
             RemoveFace(grid, cell->firstFace);
         }
-        ResizeSteps(grid, memory, gone[k], 0);
+        ResizeSteps(grid, gone[k], 0);
         grid->whole.data[cell->square] = 0; /* a square with another cell was not whole either */
         cell->square = KIRI_NONE;
         --grid->cellCount;

@@ -142,15 +142,15 @@ void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash);
 
 /* Gives back the room of lists that are as long as the grid only when it is made from scratch. Not during an update,
    nor before its changes are cleared. */
-void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory);
+void kiriGrid_DropScratch(kiriGrid* grid);
 
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 
 /* Removes the listed cells, which must be all of their pieces, and gives the triangles and vertices of the others their
    new index. Notes no change. Not during an update, nor before its changes are cleared. */
-void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices,
-                   const int32_t* gone, int32_t goneCount);
+void kiriGrid_Keep(kiriGrid* grid, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* gone,
+                   int32_t goneCount);
 
 static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
 {
@@ -339,8 +339,8 @@ struct kiriGridWork {
 
 /* Returns the material of the cell, or the stretch of the face, for writing; null for memory. Adds one, which is not
    initialised, where the cell or face is whole so far. Earlier pointers become invalid. */
-kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell);
-kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face);
+kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, int32_t cell);
+kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, int32_t face);
 
 /* The cells on borders of regions, a list for each region, in no order: to follow the borders of a few regions takes no
    walk over all their cells. */

@@ -315,7 +315,7 @@ static void DropScratch(kiriSheetData* sheet)
 {
     kiriOwnership* ownership = &sheet->update->refit.ownership;
     KIRI_ASSERT(sheet->vertexSkin.staged.count == 0 && ownership->staged.count == 0 && ownership->dirty.count == 0);
-    kiriGrid_DropScratch(&sheet->grid, sheet->memory);
+    kiriGrid_DropScratch(&sheet->grid);
     kiriShape_DropScratch(&sheet->shape, sheet->memory);
     kiriArray_Release(sheet->memory, &sheet->regions.changes);
     kiriArray_Release(sheet->memory, &sheet->regions.orphans);

@@ -538,7 +538,7 @@ static void KeepFields(kiriDetach* detach)
     const int32_t *cells = detach->cells.data, *squares = detach->squares.data;
     int32_t cellCount = detach->cells.count, squareCount = detach->squares.count;
     kiriMesh_Keep(&sheet->mesh, &rest->triangles, &rest->vertices, squares, squareCount);
-    kiriGrid_Keep(&sheet->grid, sheet->memory, &rest->triangles, &rest->vertices, cells, cellCount);
+    kiriGrid_Keep(&sheet->grid, &rest->triangles, &rest->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &rest->frames, cells, cellCount);
     kiriShape_Keep(&sheet->shape, sheet->memory, &rest->frames, cells, cellCount);
     kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->regions, &rest->triangles, &rest->frames,
