@@ -454,8 +454,8 @@ TEST(SlitsStopTheSight)
     Plain_Look(&p);
     assert_int_equal(kiriSight_Cast(&p.sight, At(0.1, 0.3), At(0.9, 0.3), &hit), KIRI_SIGHT_EDGE);
     AssertNear(hit.share, 0.5, 1e-7);
-    AssertNear(kiriMesh_Local(&p.scene.mesh, kiriSight_HeadOf(&p.scene.mesh, hit.edge)).x, 0.5, 1e-7);
-    assert_int_equal(kiriSight_EdgeBefore(&p.scene.mesh, kiriSight_EdgeAfter(&p.scene.mesh, hit.edge)), hit.edge);
+    AssertNear(kiriMesh_Local(&p.scene.mesh, kiriMesh_HeadAt(&p.scene.mesh, hit.edge)).x, 0.5, 1e-7);
+    assert_int_equal(kiriSight_EdgeBeside(&p.scene.mesh, kiriSight_EdgeBeside(&p.scene.mesh, hit.edge, true), false), hit.edge);
     assert_int_equal(kiriSight_Cast(&p.sight, At(0.9, 0.1), At(0.3, 0.4), &hit), KIRI_SIGHT_EDGE);
     AssertNear(hit.share, 2.0 / 3.0, 1e-7);
     assert_true(kiriSight_IsClear(&p.sight, At(0.1, 0.9), At(0.9, 0.9)));

@@ -459,8 +459,7 @@ static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd*
 /* Returns the head or the tail of a half-edge, local m. */
 static kiriVec2 EdgeEnd(const kiriMeshData* mesh, int32_t edge, bool isHead)
 {
-    int32_t vertex = kiriMesh_Tail(mesh, isHead ? kiriEdge_Next(edge) : edge);
-    return kiriMesh_Local(mesh, mesh->vertices.data[vertex].at);
+    return kiriMesh_Local(mesh, isHead ? kiriMesh_HeadAt(mesh, edge) : kiriMesh_TailAt(mesh, edge));
 }
 
 /* Sets an open end on an edge of the material. */
@@ -680,7 +679,7 @@ static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd*
         left -= kiriVec2_Distance(goal, at);
         at = goal;
         far = goalFar;
-        edge = ahead ? kiriSight_EdgeAfter(mesh, edge) : kiriSight_EdgeBefore(mesh, edge);
+        edge = kiriSight_EdgeBeside(mesh, edge, ahead);
     }
     return false;
 }

@@ -2,32 +2,19 @@
 
 /* ---- Edges of the material --------------------------------------------------------------------------------------- */
 
-kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h)
-{
-    return mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at;
-}
-
 static bool IsMaterialEdge(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h);
 }
 
-int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h)
+int32_t kiriSight_EdgeBeside(const kiriMeshData* mesh, int32_t h, bool ahead)
 {
-    int32_t next = kiriEdge_Next(h);
-    while (!IsMaterialEdge(mesh, next)) {
-        next = kiriEdge_Next(kiriMesh_Twin(mesh, next));
+    int32_t beside = ahead ? kiriEdge_Next(h) : kiriEdge_Previous(h);
+    while (!IsMaterialEdge(mesh, beside)) {
+        int32_t twin = kiriMesh_Twin(mesh, beside);
+        beside = ahead ? kiriEdge_Next(twin) : kiriEdge_Previous(twin);
     }
-    return next;
-}
-
-int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h)
-{
-    int32_t before = kiriEdge_Previous(h);
-    while (!IsMaterialEdge(mesh, before)) {
-        before = kiriEdge_Previous(kiriMesh_Twin(mesh, before));
-    }
-    return before;
+    return beside;
 }
 
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
@@ -48,10 +35,10 @@ bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 static bool AddSightEdge(const kiriSight* sight, int32_t square, int32_t h, int32_t cell)
 {
     const kiriMeshData* mesh = sight->grid->mesh;
-    kiriLatticePoint tail = mesh->vertices.data[kiriMesh_Tail(mesh, h)].at, head = kiriSight_HeadOf(mesh, h);
-    kiriLatticePoint after = kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, h));
+    kiriLatticePoint tail = kiriMesh_TailAt(mesh, h), head = kiriMesh_HeadAt(mesh, h);
+    kiriLatticePoint after = kiriMesh_HeadAt(mesh, kiriSight_EdgeBeside(mesh, h, true));
     /* At the end of a slit the way turns back: from the edge to its other side. */
-    bool turns = kiriOrient(tail, head, after) < 0 || (tail.x == after.x && tail.y == after.y);
+    bool turns = kiriOrient(tail, head, after) < 0 || kiriLattice_IsSame(tail, after);
     kiriSightEdge edge = { kiriMesh_Local(mesh, tail),
                            kiriMesh_Local(mesh, head),
                            kiriMesh_Local(mesh, after),

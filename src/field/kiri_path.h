@@ -61,11 +61,8 @@ static inline bool kiriSight_IsClear(const kiriSight* sight, kiriVec2 p, kiriVec
     return kiriSight_Cast(sight, p, q, &hit) == KIRI_SIGHT_CLEAR;
 }
 
-kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
-
-/* Return the next edge of the material, around the head of one, and the previous edge. */
-int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h);
-int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h);
+/* Returns the next edge of the material, around the head of one, or the previous edge. */
+int32_t kiriSight_EdgeBeside(const kiriMeshData* mesh, int32_t h, bool ahead);
 
 enum { KIRI_MOST_TURNS = 62, KIRI_MOST_SCANNED = 256, KIRI_WAY_TURNS = 24 };
 

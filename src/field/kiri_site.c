@@ -2,25 +2,6 @@
 
 /* ---- Slit ends --------------------------------------------------------------------------------------------------- */
 
-/* Finds the first and the last corner of a vertex's fan. Returns false if no edge of it is open. */
-static bool FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, int32_t* last)
-{
-    KIRI_ASSERT_HAS(mesh->vertices, vertex);
-    KIRI_ASSERT(mesh->vertices.data[vertex].edge != KIRI_NONE);
-    int32_t start = mesh->vertices.data[vertex].edge;
-    *first = *last = start;
-    for (int32_t h = kiriMesh_Clockwise(mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
-        if (h == start) {
-            return false;
-        }
-        *first = h;
-    }
-    for (int32_t h = start; h != KIRI_NONE; h = kiriMesh_CounterClockwise(mesh, h)) {
-        *last = h;
-    }
-    return true;
-}
-
 /* Returns true if a fan goes all around, from one lip of its first edge to the other. */
 static bool IsSlitEnd(const kiriMeshData* mesh, int32_t first, int32_t last)
 {
@@ -32,7 +13,7 @@ static bool IsSlitEnd(const kiriMeshData* mesh, int32_t first, int32_t last)
 bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along)
 {
     int32_t first, last;
-    if (!FindFan(mesh, vertex, &first, &last)) {
+    if (!kiriMesh_FindFan(mesh, vertex, &first, &last)) {
         return false;
     }
     int32_t other = kiriEdge_Previous(last); /* leads to the vertex */
@@ -52,7 +33,7 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, i
     for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
         int32_t first, last;
         *looks += 1;
-        if (kiriGrid_CellOfVertex(grid, v) == cell && FindFan(mesh, v, &first, &last) && IsSlitEnd(mesh, first, last)) {
+        if (kiriGrid_CellOfVertex(grid, v) == cell && kiriMesh_FindFan(mesh, v, &first, &last) && IsSlitEnd(mesh, first, last)) {
             int32_t before = kiriMesh_Head(mesh, first);
             end->at = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, mesh->vertices.data[before].at));

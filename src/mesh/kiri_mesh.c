@@ -12,19 +12,16 @@ void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g)
     }
 }
 
-void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open)
+void kiriMesh_SetMarks(kiriMeshData* mesh, int32_t h, int32_t marks)
 {
+    KIRI_ASSERT(h >= 0 && h / 3 < mesh->triangles.count && (marks & ~KIRI_EDGE_CREASE) == 0);
     kiriTriangle* t = &mesh->triangles.data[h / 3];
-    t->marks = (t->marks & ~((open ? 1 : 17) << (h % 3))) | ((open ? 1 : 0) << (h % 3));
+    t->marks = (t->marks & ~(KIRI_EDGE_CREASE << h % 3)) | marks << h % 3;
 }
 
-/* Marks half-edge g as h. */
-static void CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g)
+static int32_t MarksOf(const kiriMeshData* mesh, int32_t h)
 {
-    KIRI_ASSERT(g >= 0 && g / 3 < mesh->triangles.count);
-    kiriTriangle* t = &mesh->triangles.data[g / 3];
-    int32_t marks = kiriMesh_TriangleOf(mesh, h)->marks >> (h % 3) & 17;
-    t->marks = (t->marks & ~(17 << (g % 3))) | marks << (g % 3);
+    return kiriMesh_TriangleOf(mesh, h)->marks >> h % 3 & KIRI_EDGE_CREASE;
 }
 
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent)
@@ -119,20 +116,32 @@ kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)
     return kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
 }
 
+bool kiriMesh_FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, int32_t* last)
+{
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
+    int32_t start = mesh->vertices.data[vertex].edge;
+    KIRI_ASSERT(start != KIRI_NONE);
+    *first = *last = start;
+    for (int32_t h = kiriMesh_Clockwise(mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
+        if (h == start) {
+            return false;
+        }
+        *first = h;
+    }
+    for (int32_t h = start; h != KIRI_NONE; h = kiriMesh_CounterClockwise(mesh, h)) {
+        *last = h;
+    }
+    return true;
+}
+
 /* Returns an eighth of the integral of the directions between the first and the last edge of the fan. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
 {
-    int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start, h;
-    while ((h = kiriMesh_Clockwise(mesh, first)) != KIRI_NONE && h != start) {
-        first = h;
-    }
-    if (h == start) {
+    int32_t first, last;
+    if (!kiriMesh_FindFan(mesh, vertex, &first, &last)) {
         return kiriVec2_Make(0.0, 0.0);
     }
-    while ((h = kiriMesh_CounterClockwise(mesh, last)) != KIRI_NONE) {
-        last = h;
-    }
-    kiriVec2 a = kiriMesh_Direction(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Next(first)));
+    kiriVec2 a = kiriMesh_Direction(mesh, vertex, kiriMesh_Head(mesh, first));
     kiriVec2 b = kiriMesh_Direction(mesh, vertex, kiriMesh_Tail(mesh, kiriEdge_Previous(last)));
     return kiriVec2_Make(0.125 * (b.y - a.y), 0.125 * (a.x - b.x));
 }
@@ -213,9 +222,9 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
-    CopyMarks(mesh, h, g);
+    kiriMesh_SetMarks(mesh, g, MarksOf(mesh, h));
     kiriMesh_Link(mesh, g, kiriMesh_Twin(mesh, h));
-    kiriMesh_SetOpen(mesh, h, false);
+    kiriMesh_SetMarks(mesh, h, 0);
     if (tail->edge == h) {
         tail->edge = g;
     }
@@ -274,7 +283,7 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source
     v->at = at;
     v->edge = KIRI_NONE;
     kiriMesh_ListVertex(mesh, index);
-    kiriMesh_SetSource(mesh, index, source);
+    v->source = source;
     KIRI_NEXT(mesh->births) = *birth;
     return index;
 }
@@ -295,7 +304,7 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
 {
     int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
     int32_t added = 3 * kiriMesh_AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
-    CopyMarks(mesh, h, added);
+    kiriMesh_SetMarks(mesh, added, MarksOf(mesh, h));
     MoveHalfEdge(mesh, next, added + 1);
     mesh->triangles.data[next / 3].vertex[next % 3] = p;
     kiriMesh_Link(mesh, next, added + 2);
@@ -445,7 +454,7 @@ static void TearFan(kiriMeshData* mesh, int32_t h)
     }
     mesh->vertices.data[torn].edge = h;
     mesh->vertices.data[old].edge = kiriEdge_Next(twin);
-    kiriMesh_SetSource(mesh, old, mesh->triangles.data[twin / 3].source);
+    mesh->vertices.data[old].source = mesh->triangles.data[twin / 3].source;
 }
 
 bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease)
@@ -463,14 +472,9 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease)
     NoteTriangle(mesh, twin / 3);
     int32_t before = mesh->vertices.count;
     ++mesh->revision;
-    KIRI_TIMES(side, 2) {
-        int32_t g = side == 0 ? h : twin;
-        kiriMesh_SetOpen(mesh, g, false);
-        kiriMesh_SetOpen(mesh, g, true);
-        mesh->triangles.data[g / 3].marks |= (isCrease ? 16 : 0) << g % 3;
-    }
-    kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                              mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
+    kiriMesh_SetMarks(mesh, h, isCrease ? KIRI_EDGE_CREASE : KIRI_EDGE_OPEN);
+    kiriMesh_SetMarks(mesh, twin, isCrease ? KIRI_EDGE_CREASE : KIRI_EDGE_OPEN);
+    kiriSquares_MarkEdgeDirty(&mesh->squares, kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));
     if (!wasCrease) {
         TearFan(mesh, h);
         TearFan(mesh, twin);
@@ -540,7 +544,7 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
     KIRI_EACH_CORNER(i) {
         t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
         t->twin[i] = EdgeTo(triangles, t->twin[i]);
-        t->marks &= t->twin[i] == KIRI_NONE ? ~(17 << i) : ~0;
+        t->marks &= t->twin[i] == KIRI_NONE ? ~(KIRI_EDGE_CREASE << i) : ~0;
     }
     t->parent = kiriKeep_To(triangles, t->parent);
 }

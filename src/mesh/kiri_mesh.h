@@ -30,7 +30,9 @@ typedef struct kiriTriangle {
 enum {
     KIRI_TRIANGLE_OPEN = 7,    /* its open edges */
     KIRI_TRIANGLE_CHANGED = 8, /* in changedTriangles */
-    KIRI_TRIANGLE_CREASE = 7 << 4
+    KIRI_TRIANGLE_CREASE = 7 << 4,
+    KIRI_EDGE_OPEN = 1, /* of half-edge 0; a crease is open, too */
+    KIRI_EDGE_CREASE = 17
 };
 
 typedef struct kiriVertex {
@@ -228,6 +230,9 @@ int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 /* Returns the direction from one vertex to another, unit. */
 kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to);
 
+/* Finds the first and the last corner of a vertex's fan. Returns false if no edge of it is open. */
+bool kiriMesh_FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, int32_t* last);
+
 /* Returns a vector from a vertex on a lip or the outline into its material. The length is a quarter on a straight lip,
    and 0 if the fan of the vertex is closed. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex);
@@ -259,10 +264,11 @@ kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
 /* Adds a triangle without twins and returns its index. */
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent);
 
-/* Link makes half-edges h and g twins; g may be KIRI_NONE. SetOpen marks h as open or closed, but not its twin, and
-   as a cut. */
+/* Makes half-edges h and g twins; g may be KIRI_NONE. */
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g);
-void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
+
+/* Marks a half-edge as closed (0), KIRI_EDGE_OPEN or KIRI_EDGE_CREASE, but not its twin. */
+void kiriMesh_SetMarks(kiriMeshData* mesh, int32_t h, int32_t marks);
 
 /* Writes the corners of one of the caller's triangles. Returns false if the mesh has no part of it. */
 bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3]);
@@ -272,8 +278,6 @@ bool kiriMesh_HasSource(const kiriMeshData* mesh, int32_t triangle);
 
 /* Stores the corners of the triangle's source in a block. Call it before a triangle is split; there must be room. */
 void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle);
-
-void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source);
 
 /* Lists a new vertex in its square, before older ones. It never moves, so it stays there. */
 void kiriMesh_ListVertex(kiriMeshData* mesh, int32_t vertex);

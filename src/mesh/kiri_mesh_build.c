@@ -291,8 +291,8 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
         bool isOpen =
             kiriMesh_Tail(mesh, g) != kiriMesh_Head(mesh, h) || kiriMesh_Tail(mesh, h) != kiriMesh_Head(mesh, g);
         kiriMesh_Link(mesh, h, g);
-        kiriMesh_SetOpen(mesh, h, isOpen);
-        kiriMesh_SetOpen(mesh, g, isOpen);
+        kiriMesh_SetMarks(mesh, h, isOpen ? KIRI_EDGE_OPEN : 0);
+        kiriMesh_SetMarks(mesh, g, isOpen ? KIRI_EDGE_OPEN : 0);
     }
     return KIRI_OK;
 }
@@ -667,12 +667,6 @@ void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
     }
     mesh->sourceCorners.count += BLOCK_CORNERS;
     mesh->sourceBlocks.data[k] = count / BLOCK_CORNERS;
-}
-
-void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
-{
-    KIRI_ASSERT_HAS(mesh->vertices, vertex);
-    mesh->vertices.data[vertex].source = source;
 }
 
 /* Writes the shares on the nearest edge, for a point that rounding has put beside the triangle. Areas do not tell which
