@@ -19,11 +19,6 @@ void kiriMesh_SetMarks(kiriMeshData* mesh, int32_t h, int32_t marks)
     t->marks = (t->marks & ~(KIRI_EDGE_CREASE << h % 3)) | marks << h % 3;
 }
 
-static int32_t MarksOf(const kiriMeshData* mesh, int32_t h)
-{
-    return kiriMesh_TriangleOf(mesh, h)->marks >> h % 3 & KIRI_EDGE_CREASE;
-}
-
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent)
 {
     KIRI_ASSERT(mesh->triangles.count < mesh->triangles.capacity);
@@ -222,7 +217,7 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
-    kiriMesh_SetMarks(mesh, g, MarksOf(mesh, h));
+    kiriMesh_SetMarks(mesh, g, kiriMesh_MarksOf(mesh, h));
     kiriMesh_Link(mesh, g, kiriMesh_Twin(mesh, h));
     kiriMesh_SetMarks(mesh, h, 0);
     if (tail->edge == h) {
@@ -304,7 +299,7 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
 {
     int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
     int32_t added = 3 * kiriMesh_AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
-    kiriMesh_SetMarks(mesh, added, MarksOf(mesh, h));
+    kiriMesh_SetMarks(mesh, added, kiriMesh_MarksOf(mesh, h));
     MoveHalfEdge(mesh, next, added + 1);
     mesh->triangles.data[next / 3].vertex[next % 3] = p;
     kiriMesh_Link(mesh, next, added + 2);

@@ -172,6 +172,12 @@ static inline int32_t kiriMesh_Twin(const kiriMeshData* mesh, int32_t h)
     return kiriMesh_TriangleOf(mesh, h)->twin[h % 3];
 }
 
+/* Returns KIRI_EDGE_OPEN, KIRI_EDGE_CREASE, or 0 for a closed edge. */
+static inline int32_t kiriMesh_MarksOf(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_TriangleOf(mesh, h)->marks >> h % 3 & KIRI_EDGE_CREASE;
+}
+
 static inline bool kiriMesh_IsOpen(const kiriMeshData* mesh, int32_t h)
 {
     return (kiriMesh_TriangleOf(mesh, h)->marks >> (h % 3) & 1) != 0;

@@ -135,75 +135,21 @@ static bool AreTriangles(const kiriMeshData* mesh)
 
 /* ---- Fans -------------------------------------------------------------------------------------------------------- */
 
-/* Corners of a vertex. */
-typedef struct Fan {
-    const kiriMeshData* mesh;
-    int32_t vertex, source, count;
-    bool isFine, hasSource; /* hasSource: a triangle has the source of the vertex */
-} Fan;
-
-/* The corner of a triangle at which half-edge 3 `triangle` + `at` begins. */
-typedef struct Corner {
-    uint32_t triangle, at;
-} Corner;
-
-static Corner CornerOfHalfEdge(int32_t h)
+/* Twins belong to two triangles, have the same marks and run between the same points; closed ones between the same
+   vertices. So to go around a vertex leads back to the start, or ends. */
+static bool AreTwins(const kiriMeshData* mesh)
 {
-    uint32_t t = (uint32_t)h / 3;
-    return (Corner){ t, (uint32_t)h - 3 * t };
-}
-
-/* The half-edge that leads to a corner of the fan, and its twin, are of one another, and the twin begins where it ends,
-   if it is closed at the same vertex. */
-static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isOpen)
-{
-    const kiriTriangle* other = &fan->mesh->triangles.data[twin.triangle];
-    int32_t vertex = other->vertex[twin.at];
-    return other->twin[twin.at] == (int32_t)(3 * edge.triangle + edge.at) && twin.triangle != edge.triangle &&
-           ((uint32_t)other->marks >> twin.at & 17) == isOpen &&
-           (vertex == fan->vertex || (isOpen != 0 && vertex != KIRI_NONE &&
-            kiriLattice_IsSame(kiriMesh_At(fan->mesh, fan->vertex), kiriMesh_At(fan->mesh, vertex))));
-}
-
-/* Takes a corner, and looks at the half-edge that leads to it: where all corners are taken, all half-edges were looked
-   at. Moves on to the next corner, counter-clockwise; false where there is none. */
-static inline bool TakeCorner(Fan* fan, Corner* corner)
-{
-    const kiriTriangle* triangle = &fan->mesh->triangles.data[corner->triangle];
-    Corner before = { corner->triangle, corner->at == 0 ? 2 : corner->at - 1 };
-    int32_t twin = triangle->twin[before.at];
-    uint32_t isOpen = (uint32_t)triangle->marks >> before.at & 17; /* or a crease */
-    fan->hasSource |= triangle->source == fan->source;
-    fan->count += 1;
-    if (twin == KIRI_NONE) {
-        fan->isFine = triangle->vertex[corner->at] == fan->vertex && isOpen == 0;
-        return false;
+    bool areFine = true;
+    KIRI_TIMES_WHILE(areFine, h, 3 * mesh->triangles.count) {
+        int32_t twin = kiriMesh_Twin(mesh, h), tail = kiriMesh_Tail(mesh, h), marks = kiriMesh_MarksOf(mesh, h);
+        int32_t head = twin == KIRI_NONE ? KIRI_NONE : kiriMesh_Head(mesh, twin); /* at the same point as the tail */
+        areFine = twin == KIRI_NONE ? marks == 0
+                                    : kiriMesh_Twin(mesh, twin) == h && twin / 3 != h / 3 &&
+                                          kiriMesh_MarksOf(mesh, twin) == marks &&
+                                          (head == tail || (marks != 0 && kiriLattice_IsSame(kiriMesh_At(mesh, head),
+                                                                                             kiriMesh_At(mesh, tail))));
     }
-    Corner next = CornerOfHalfEdge(twin);
-    fan->isFine = triangle->vertex[corner->at] == fan->vertex && IsTwin(fan, before, next, isOpen);
-    *corner = next;
-    return fan->isFine && isOpen == 0;
-}
-
-/* All corners from one on: each is followed by one, and follows one. So it ends: it does not come back but to the
-   start. */
-static void TakeFan(Fan* fan, int32_t start)
-{
-    const Corner first = CornerOfHalfEdge(start);
-    Corner corner = first;
-    bool isRound = false;
-    while (!isRound && TakeCorner(fan, &corner)) {
-        isRound = corner.triangle == first.triangle && corner.at == first.at;
-    }
-    for (int32_t h = isRound ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
-        const Corner after = CornerOfHalfEdge(h);
-        h = kiriMesh_Clockwise(fan->mesh, h);
-        if (h != KIRI_NONE) {
-            corner = CornerOfHalfEdge(h);
-            TakeCorner(fan, &corner);
-            fan->isFine = fan->isFine && corner.triangle == after.triangle && corner.at == after.at;
-        }
-    }
+    return areFine;
 }
 
 /* Checks that each corner is in the fan of its vertex, and that the source of a vertex is the source of a triangle
@@ -213,10 +159,20 @@ static bool AreFans(const kiriMeshData* mesh)
     int32_t corners = 3 * mesh->triangles.count;
     bool areFine = true;
     KIRI_EACH_INDEX_WHILE(areFine, v, mesh->vertices) {
-        Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, true, false };
-        TakeFan(&fan, mesh->vertices.data[v].edge);
-        areFine = fan.isFine && fan.hasSource;
-        corners -= fan.count;
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        int32_t first = vertex->edge, before = first;
+        while ((before = kiriMesh_Clockwise(mesh, before)) != KIRI_NONE && before != vertex->edge) {
+            first = before;
+        }
+        bool hasSource = false;
+        int32_t h = first;
+        do {
+            areFine = areFine && kiriMesh_Tail(mesh, h) == v;
+            hasSource |= kiriMesh_TriangleOf(mesh, h)->source == vertex->source;
+            corners -= 1;
+            h = kiriMesh_CounterClockwise(mesh, h);
+        } while (h != KIRI_NONE && h != first);
+        areFine = areFine && hasSource;
     }
     return areFine && corners == 0;
 }
@@ -281,7 +237,7 @@ void kiriMesh_Derive(kiriMeshData* mesh, kiriArchive* archive)
     kiriArchive_Expect(archive, mesh->step > 1e-60 && mesh->step < 1e40 && squares->side > 0 && squares->side % 2 == 0 &&
                                     AreLines(squares, squares->firstColumn, squares->columns) &&
                                     AreLines(squares, squares->firstRow, squares->rows) && AreVertices(mesh) &&
-                                    AreSourceCorners(mesh) && AreTriangles(mesh) && AreFans(mesh) &&
+                                    AreSourceCorners(mesh) && AreTriangles(mesh) && AreTwins(mesh) && AreFans(mesh) &&
                                     AreFolds(mesh));
     if (!kiriArchive_HasFailed(archive)) {
         FillSquares(mesh, archive);
