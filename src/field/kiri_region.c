@@ -36,6 +36,18 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, cons
     return ok;
 }
 
+bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, kiriMemory* memory, const kiriGrid* grid,
+                          const kiriSite* sites, int32_t first, int32_t end, const int32_t* holders)
+{
+    bool ok = true;
+    seeds->count = 0;
+    KIRI_FROM_TO_WHILE(ok, i, first, end) {
+        ok = kiriSite_Seed(&sites[i], i, memory, grid, seeds);
+    }
+    KIRI_KEEP_IF(const kiriSeed, seed, *seeds, holders[seed->cell] < 0 || holders[seed->cell] == seed->owner);
+    return ok && kiriField_Start(field, memory, seeds->data, seeds->count);
+}
+
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && kiriGrid_IsCell(grid, site->cell));
@@ -165,48 +177,31 @@ static bool MoveSites(const RegionUpdate* u)
     return true;
 }
 
-/* Follows the grid's changes since the last update. */
+/* Follows the grid's changes. */
 static void FollowGrid(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
-    KIRI_FROM_TO(k, r->seen.gone, changes->gone.count) {
-        int32_t cell = changes->gone.data[k];
+    KIRI_EACH(const int32_t, gone, changes->gone) {
+        int32_t cell = *gone;
         AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
         SetBorder(r, cell, false);
     }
-    KIRI_FROM_TO(k, r->seen.material, changes->material.count) {
-        const kiriMaterialChange* change = &changes->material.data[k];
+    KIRI_EACH(const kiriMaterialChange, change, changes->material) {
         int32_t owner = r->field.owner.data[change->cell];
         AddToRegion(u, owner, change->was, -1);
         AddToRegion(u, owner, kiriGrid_Material(u->grid, change->cell), 1);
     }
-    KIRI_FROM_TO(k, r->seen.steps, changes->steps.count) {
-        int32_t cell = changes->steps.data[k];
-        KIRI_ASSERT(kiriGrid_IsCell(u->grid, cell));
-        MarkRegionDirty(r, r->field.owner.data[cell]);
-        kiriField_MarkStepsDirty(&r->field, cell);
+    KIRI_EACH(const int32_t, cell, changes->steps) {
+        KIRI_ASSERT(kiriGrid_IsCell(u->grid, *cell));
+        MarkRegionDirty(r, r->field.owner.data[*cell]);
+        kiriField_MarkStepsDirty(&r->field, *cell);
     }
-    KIRI_FROM_TO(k, r->seen.edges, changes->edges.count) {
-        MarkRegionDirty(r, r->field.owner.data[changes->edges.data[k]]);
+    KIRI_EACH(const int32_t, cell, changes->edges) {
+        MarkRegionDirty(r, r->field.owner.data[*cell]);
     }
-}
-
-/* Starts from scratch with the seeds of all sites, but for seeds in the cell of another site (see NearestSiteSeed). */
-static bool StartRegionFlood(const RegionUpdate* u)
-{
-    kiriSeeds seeds = { 0 };
-    bool ok = true;
-    KIRI_TIMES_WHILE(ok, i, u->siteCount) {
-        ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, &seeds);
-    }
-    const int32_t* holders = u->regions->siteAt.data;
-    KIRI_KEEP_IF(const kiriSeed, seed, seeds, holders[seed->cell] == KIRI_NONE || holders[seed->cell] == seed->owner);
-    ok = ok && kiriField_Start(&u->regions->field, u->memory, seeds.data, seeds.count);
-    kiriArray_Release(u->memory, &seeds);
-    return ok;
 }
 
 /* ---- Borders, material and changes ------------------------------------------------------------------------------- */
@@ -273,8 +268,8 @@ static bool FinishRepair(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     int32_t orphans = 0, kept = 0;
-    KIRI_FROM_TO(k, r->seen.steps, changes->steps.count) {
-        FindBorder(u, changes->steps.data[k]);
+    KIRI_EACH_WHILE(!r->hasSeenGrid, const int32_t, cell, changes->steps) {
+        FindBorder(u, *cell);
     }
     KIRI_EACH(const int32_t, orphan, r->orphans) {
         int32_t cell = *orphan;
@@ -282,9 +277,8 @@ static bool FinishRepair(const RegionUpdate* u)
         orphans += kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE;
     }
     r->orphans.count = orphans;
-    KIRI_FROM_TO(k, r->seen.made, changes->made.count) {
-        int32_t cell = changes->made.data[k];
-        if (r->field.owner.data[cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, cell)) {
+    KIRI_EACH_WHILE(!r->hasSeenGrid, const int32_t, cell, changes->made) {
+        if (r->field.owner.data[*cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, *cell)) {
             return false;
         }
     }
@@ -331,9 +325,15 @@ static bool BeginRegions(const RegionUpdate* u)
         return false;
     }
     if (r->flooding) {
-        return MoveSites(u) && StartRegionFlood(u);
+        kiriSeeds seeds = { 0 };
+        bool ok = MoveSites(u) && kiriSites_StartFlood(&r->field, &seeds, u->memory, u->grid, u->sites, 0, u->siteCount,
+                                                       r->siteAt.data);
+        kiriArray_Release(u->memory, &seeds);
+        return ok;
     }
-    FollowGrid(u);
+    if (!r->hasSeenGrid) {
+        FollowGrid(u);
+    }
     if (!MoveSites(u)) {
         return false;
     }
@@ -385,9 +385,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (regions->flooding ? !FinishFlood(&u) : !FinishRepair(&u)) {
         return KIRI_FAILED;
     }
-    const kiriGridChanges* changes = &grid->changes;
-    regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
-                                       changes->material.count, changes->edges.count };
+    regions->hasSeenGrid = true;
     return KIRI_DONE;
 }
 
@@ -414,7 +412,7 @@ void kiriRegions_ClearChanges(kiriRegions* regions)
         regions->isChanged.data[change->cell] = 0;
     }
     regions->changes.count = 0;
-    regions->seen = (kiriSeenChanges){ 0 };
+    regions->hasSeenGrid = false;
 }
 
 void kiriRegions_Reset(kiriRegions* regions)

@@ -21,13 +21,13 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
    seeds as well, so that distances depend on its position in the cell. Fails on out of memory. */
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid, kiriSeeds* seeds);
 
+/* Starts a flood from sites `first` to `end` - 1, without seeds in the cells of other sites (see NearestSiteSeed);
+   holders: of each cell, the site in it, or negative. `seeds` is scratch. Fails on out of memory. */
+bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, kiriMemory* memory, const kiriGrid* grid,
+                          const kiriSite* sites, int32_t first, int32_t end, const int32_t* holders);
+
 /* Returns the seed of the site in one cell; distance KIRI_FAR where it has none there. */
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell);
-
-/* Entries of the grid's changes that earlier updates have followed, for each list. */
-typedef struct kiriSeenChanges {
-    int32_t made, gone, steps, material, edges;
-} kiriSeenChanges;
 
 typedef struct kiriRegions {
     kiriField field; /* owner: the frame whose region a cell is in; KIRI_NONE where its piece has no frame */
@@ -47,10 +47,10 @@ typedef struct kiriRegions {
 
     /* Private. */
     bool flooding;                 /* the update is one from scratch */
+    bool hasSeenGrid;              /* an earlier update has followed the changes of the grid */
     bool following;                /* the field is right again; */
     int32_t followed;              /* entries of its log that have been followed */
     kiriFlags isChanged;           /* for each cell: it is in `changes` */
-    kiriSeenChanges seen;
 } kiriRegions;
 
 /* A site that is new or has moved, be it only within its cell, or whose cell has another index. */

@@ -263,20 +263,12 @@ static int32_t OldDistance(const kiriPlacerWork* work, int32_t cell)
     return work->hasOld ? work->old->distance.data[cell] : KIRI_FAR;
 }
 
-/* Starts a flood from sites, without their seeds in cells that hold another site. */
+/* Starts a flood from sites of the part. */
 static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
 {
-    kiriSeeds* seeds = &job->work->seeds;
-    const int32_t* holds = job->work->holds.data;
     kiriField_Reset(field);
-    seeds->count = 0;
-    KIRI_FROM_TO(i, first, end) {
-        if (!kiriSite_Seed(&job->placer->sites.data[i], i, job->memory, job->grid, seeds)) {
-            return false;
-        }
-    }
-    KIRI_KEEP_IF(const kiriSeed, seed, *seeds, holds[seed->cell] < 0 || holds[seed->cell] == seed->owner);
-    return kiriField_Start(field, job->memory, seeds->data, seeds->count);
+    return kiriSites_StartFlood(field, &job->work->seeds, job->memory, job->grid, job->placer->sites.data, first, end,
+                                job->work->holds.data);
 }
 
 /* Returns true where no old site is as near as a new one, nor, in sampling, another new one. */
