@@ -312,8 +312,7 @@ static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t squa
         }
         KIRI_SEARCH(j, i + 1, range.end, TriangleAt(work, mesh, middle) < twin / 3);
         if (j < range.end && TriangleAt(work, mesh, j) == twin / 3 &&
-            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
-                                    mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at)) {
+            kiriSquares_RunsThrough(&mesh->squares, square, kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h))) {
             kiriUnion_Join(work->parent.data, i - range.first, j - range.first);
         }
     }
@@ -558,8 +557,8 @@ static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, i
     KIRI_ASSERT(t->vertex[0] >= 0 && t->vertex[0] < mesh->vertices.count);
     KIRI_EACH_CORNER(i) {
         if ((t->twin[i] == KIRI_NONE || (t->marks >> i & 1) != 0) &&
-            kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
-                                    mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
+            kiriSquares_RunsThrough(&mesh->squares, square, kiriMesh_At(mesh, t->vertex[i]),
+                                    kiriMesh_At(mesh, t->vertex[(i + 1) % 3]))) {
             return true;
         }
     }
@@ -1365,7 +1364,7 @@ int32_t kiriGrid_CellOf(const kiriGrid* grid, int32_t triangle, kiriLatticePoint
 
 int32_t kiriGrid_CellOfVertex(const kiriGrid* grid, int32_t vertex)
 {
-    int32_t square = kiriSquares_At(&grid->mesh->squares, grid->mesh->vertices.data[vertex].at),
+    int32_t square = kiriSquares_At(&grid->mesh->squares, kiriMesh_At(grid->mesh, vertex)),
             first = grid->squareCell.data[square];
     KIRI_ASSERT(vertex < grid->vertexCell.count);
     return grid->cells.data[first].next == KIRI_NONE ? first : grid->vertexCell.data[vertex];

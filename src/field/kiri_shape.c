@@ -190,7 +190,6 @@ static void TouchCell(ShapeJob* job, int32_t cell)
     }
 }
 
-/* Lists a cell with other distances or material. */
 /* Adds a cell to a list, unless it has this mark of the list. */
 static void MarkCell(ShapeJob* job, int32_t cell, uint8_t mark, kiriIndices* list)
 {

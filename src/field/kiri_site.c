@@ -35,8 +35,8 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, i
         *looks += 1;
         if (kiriGrid_CellOfVertex(grid, v) == cell && kiriMesh_FindFan(mesh, v, &first, &last) && IsSlitEnd(mesh, first, last)) {
             int32_t before = kiriMesh_Head(mesh, first);
-            end->at = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
-            kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, mesh->vertices.data[before].at));
+            end->at = kiriMesh_Local(mesh, kiriMesh_At(mesh, v));
+            kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, kiriMesh_At(mesh, before)));
             end->along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
             end->cell = cell;
             return true;

@@ -106,7 +106,7 @@ double kiriMesh_Area(const kiriMeshData* mesh)
 
 kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)
 {
-    kiriLatticePoint a = mesh->vertices.data[from].at, b = mesh->vertices.data[to].at;
+    kiriLatticePoint a = kiriMesh_At(mesh, from), b = kiriMesh_At(mesh, to);
     kiriVec2 way = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y);
     return kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
 }
@@ -287,8 +287,8 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source
 static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
-    double toA = sqrt((double)kiriDistanceSquared(mesh->vertices.data[a].at, at));
-    double toB = sqrt((double)kiriDistanceSquared(mesh->vertices.data[b].at, at));
+    double toA = sqrt((double)kiriDistanceSquared(kiriMesh_At(mesh, a), at));
+    double toB = sqrt((double)kiriDistanceSquared(kiriMesh_At(mesh, b), at));
     kiriBirth birth = { { a, b, KIRI_NONE }, { toB / (toA + toB), toA / (toA + toB), 0.0 } };
     return AddVertex(mesh, at, mesh->triangles.data[h / 3].source, &birth);
 }
@@ -443,7 +443,7 @@ static void TearFan(kiriMeshData* mesh, int32_t h)
     }
     NoteVertex(mesh, old);
     kiriBirth birth = { { old, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
-    int32_t torn = AddVertex(mesh, mesh->vertices.data[old].at, mesh->triangles.data[h / 3].source, &birth);
+    int32_t torn = AddVertex(mesh, kiriMesh_At(mesh, old), mesh->triangles.data[h / 3].source, &birth);
     for (int32_t c = h; c != KIRI_NONE; c = kiriMesh_CounterClockwise(mesh, c)) {
         mesh->triangles.data[c / 3].vertex[c % 3] = torn;
     }
@@ -598,9 +598,9 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 
 static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
 {
-    kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
+    kiriLatticePoint lower = kiriMesh_At(mesh, 0), upper = lower;
     KIRI_FROM_TO(v, 1, mesh->vertices.count) {
-        kiriLatticePoint at = mesh->vertices.data[v].at;
+        kiriLatticePoint at = kiriMesh_At(mesh, v);
         lower.x = kiriMin(at.x, lower.x);
         lower.y = kiriMin(at.y, lower.y);
         upper.x = kiriMax(at.x, upper.x);

@@ -146,19 +146,14 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
     return true;
 }
 
-static void ForgetHistory(kiriFrameData* frame)
-{
-    KIRI_CLEAR(&frame->history);
-}
-
 void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
 {
     KIRI_ASSERT_HAS(sheet->pins, index);
     const kiriPinShares* shares = &sheet->layout.pinShares;
-    ForgetHistory(&sheet->frames.data[sheet->layout.pinFrame.data[index]]);
+    KIRI_CLEAR(&sheet->frames.data[sheet->layout.pinFrame.data[index]].history);
     KIRI_EACH(const kiriPinShare, share, *shares) {
         if (share->pin == index) {
-            ForgetHistory(&sheet->frames.data[share->share.frame]);
+            KIRI_CLEAR(&sheet->frames.data[share->share.frame].history);
         }
     }
 }
