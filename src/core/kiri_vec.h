@@ -98,6 +98,13 @@ static inline double kiriVec2_Length(kiriVec2 a)
     return sqrt(kiriVec2_Dot(a, a));
 }
 
+/* Returns the unit vector along a, or 0 for 0. */
+static inline kiriVec2 kiriVec2_Normalize(kiriVec2 a)
+{
+    double length = kiriVec2_Length(a);
+    return kiriVec2_Scale(length > 0.0 ? 1.0 / length : 0.0, a);
+}
+
 static inline kiriVec2 kiriVec2_AddScaled(kiriVec2 a, double s, kiriVec2 b)
 {
     return kiriVec2_Add(a, kiriVec2_Scale(s, b));

@@ -466,9 +466,8 @@ static kiriVec2 EdgeEnd(const kiriMeshData* mesh, int32_t edge, bool isHead)
 static void SetOpenEnd(const LinkUpdate* u, kiriLinkEnd* end, kiriVec2 at, int32_t edge)
 {
     kiriVec2 way = kiriVec2_Sub(EdgeEnd(u->grid->mesh, edge, true), EdgeEnd(u->grid->mesh, edge, false));
-    double size = kiriVec2_Length(way);
     SetEnd(end, KIRI_END_OPEN, at);
-    end->edge = kiriVec2_Scale(size > 0.0 ? 1.0 / size : 0.0, way);
+    end->edge = kiriVec2_Normalize(way);
 }
 
 /* ---- Ends that the sites see ------------------------------------------------------------------------------------- */
@@ -590,9 +589,8 @@ static bool FindSlitEnd(const EndSearch* s, kiriLinkEnd* end)
 static double Farther(const SiteReach* a, const SiteReach* b, kiriVec2 at, kiriVec2* slope)
 {
     kiriVec2 x = kiriVec2_Sub(at, a->from), y = kiriVec2_Sub(at, b->from);
-    double p = kiriVec2_Length(x), q = kiriVec2_Length(y);
-    *slope = kiriVec2_Sub(kiriVec2_Scale(p > 0.0 ? 1.0 / p : 0.0, x), kiriVec2_Scale(q > 0.0 ? 1.0 / q : 0.0, y));
-    return a->behind + p - b->behind - q;
+    *slope = kiriVec2_Sub(kiriVec2_Normalize(x), kiriVec2_Normalize(y));
+    return a->behind + kiriVec2_Length(x) - b->behind - kiriVec2_Length(y);
 }
 
 static kiriVec2 AtMost(kiriVec2 step, double most)
@@ -1028,7 +1026,7 @@ static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds*
         }
         mean = kiriVec2_AddScaled(mean, along < 0.0 ? -1.0 : 1.0, ends->end[k].edge);
     }
-    link->normal = kiriVec2_Scale(1.0 / kiriVec2_Length(mean), mean);
+    link->normal = kiriVec2_Normalize(mean);
     link->tangent = kiriVec2_Left(link->normal);
     link->width = kiriVec2_Dot(way, link->tangent);
     link->moment = link->width * link->width * link->width / 12.0;
@@ -1464,8 +1462,7 @@ static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32
     const kiriFoldLine* line = &u->grid->mesh->folds.data[fold];
     const int32_t* order = u->work->order.data;
     kiriVec2 start = kiriMesh_Local(u->grid->mesh, line->from);
-    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(u->grid->mesh, line->to), start);
-    kiriVec2 along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
+    kiriVec2 along = kiriVec2_Normalize(kiriVec2_Sub(kiriMesh_Local(u->grid->mesh, line->to), start));
     kiriNewLink made = { 0 };
     kiriLink* link = &made.link;
     double sum = 0.0, second = 0.0;

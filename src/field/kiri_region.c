@@ -51,13 +51,7 @@ bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, kiriMemory* memory
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && kiriGrid_IsCell(grid, site->cell));
-    /* Most cells are too far for a step: more than two squares along an axis. */
-    int32_t columns = grid->mesh->squares.columns,
-            apart = grid->cells.data[cell].square - grid->cells.data[site->cell].square;
-    apart = kiriMax(apart, -apart) + 2;
-    bool isClose =
-        apart <= 4 || (apart >= columns && apart <= columns + 4) || (apart >= 2 * columns && apart <= 2 * columns + 4);
-    bool near = cell == site->cell || (isClose && kiriGrid_HasStep(grid, cell, site->cell, KIRI_KNIGHT));
+    bool near = cell == site->cell || kiriGrid_HasStep(grid, cell, site->cell, KIRI_KNIGHT);
     return near ? SeedNear(site, owner, grid, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
 }
 

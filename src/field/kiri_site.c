@@ -20,7 +20,7 @@ bool kiriSlits_WayOn(const kiriMeshData* mesh, int32_t vertex, kiriVec2* along)
     kiriVec2 a = kiriMesh_Direction(mesh, kiriMesh_Head(mesh, first), vertex);
     kiriVec2 b = kiriMesh_Direction(mesh, kiriMesh_Tail(mesh, other), vertex), sum = kiriVec2_Add(a, b);
     bool isNotch = kiriVec2_Dot(a, b) > SHARP && kiriVec2_Cross(a, b) < 0.0;
-    *along = kiriVec2_Scale(1.0 / kiriVec2_Length(sum), sum);
+    *along = kiriVec2_Normalize(sum);
     return (isNotch || IsSlitEnd(mesh, first, last)) && !kiriMesh_IsCrease(mesh, first) && !kiriMesh_IsCrease(mesh, other);
 }
 
@@ -36,8 +36,7 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, i
         if (kiriGrid_CellOfVertex(grid, v) == cell && kiriMesh_FindFan(mesh, v, &first, &last) && IsSlitEnd(mesh, first, last)) {
             int32_t before = kiriMesh_Head(mesh, first);
             end->at = kiriMesh_Local(mesh, kiriMesh_At(mesh, v));
-            kiriVec2 way = kiriVec2_Sub(end->at, kiriMesh_Local(mesh, kiriMesh_At(mesh, before)));
-            end->along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
+            end->along = kiriVec2_Normalize(kiriVec2_Sub(end->at, kiriMesh_Local(mesh, kiriMesh_At(mesh, before))));
             end->cell = cell;
             return true;
         }

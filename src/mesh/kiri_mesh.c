@@ -107,8 +107,7 @@ double kiriMesh_Area(const kiriMeshData* mesh)
 kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)
 {
     kiriLatticePoint a = kiriMesh_At(mesh, from), b = kiriMesh_At(mesh, to);
-    kiriVec2 way = kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y);
-    return kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
+    return kiriVec2_Normalize(kiriVec2_Make((double)b.x - a.x, (double)b.y - a.y));
 }
 
 bool kiriMesh_FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, int32_t* last)

@@ -375,7 +375,7 @@ kiriVec2 kiriCircle_At(int32_t i, int32_t count)
     kiriVec2 a = quarters[quarter % 4], b = quarters[(quarter + 1) % 4];
     while (rest > 0) {
         kiriVec2 middle = kiriVec2_Make(a.x + b.x, a.y + b.y);
-        middle = kiriVec2_Scale(1.0 / kiriVec2_Length(middle), middle);
+        middle = kiriVec2_Normalize(middle);
         step /= 2;
         if (rest >= step) {
             a = middle;

@@ -89,13 +89,6 @@ bool kiriPieces_AnyGone(const kiriSheetData* sheet)
     return any;
 }
 
-void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
-{
-    KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
-        piece->isGone = piece->origin != KIRI_NONE && old->pieces.data[piece->origin].isGone;
-    }
-}
-
 /* ---- Pieces that a cut touches ----------------------------------------------------------------------------------- */
 
 static kiriPiece* NextOfFrame(const kiriSheetData* sheet, int32_t frame)
@@ -190,11 +183,13 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
     TouchByOrigin(sheet);
 }
 
-void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
+void kiriPieces_Keep(kiriSheetData* sheet, const kiriLayout* old)
 {
     KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
-        if (piece->origin != KIRI_NONE && !piece->isTouched) {
-            piece->rest = old->pieces.data[piece->origin].rest;
+        if (piece->origin != KIRI_NONE) {
+            const kiriPiece* origin = &old->pieces.data[piece->origin];
+            piece->isGone = origin->isGone;
+            piece->rest = piece->isTouched ? piece->rest : origin->rest;
         }
     }
     kiriSheet_SumRest(sheet);
@@ -397,17 +392,14 @@ static bool ListPoints(kiriSheetData* sheet)
 bool kiriPieces_ListFrames(kiriSheetData* sheet)
 {
     kiriPieceLists* lists = &sheet->lists;
-    const kiriLayout* layout = &sheet->layout;
     if (lists->hasFrames) {
         return true;
     }
-    if (!kiriPieceItems_List(&lists->frames, &sheet->shown, layout->pieces.count, layout->framePiece.data,
-                             sheet->frames.count) ||
-        !ListPoints(sheet) || !kiriArray_Resize(&sheet->shown, &lists->ids, sheet->frames.count)) {
+    if (!ListPoints(sheet) || !kiriArray_Resize(&sheet->shown, &lists->ids, sheet->frames.count)) {
         return false;
     }
     KIRI_EACH_INDEX(i, lists->ids) {
-        lists->ids.data[i] = sheet->frames.data[lists->frames.items.data[i]].id;
+        lists->ids.data[i] = sheet->frames.data[sheet->solver->bodies.frames.data[i]].id;
     }
     lists->hasFrames = true;
     return true;
@@ -460,8 +452,8 @@ kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece)
 
 void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired)
 {
-    kiriPieceItems* all[] = { &lists->frames, &lists->vertices, &lists->triangles, &lists->points };
-    KIRI_TIMES(i, 4) {
+    kiriPieceItems* all[] = { &lists->vertices, &lists->triangles, &lists->points };
+    KIRI_TIMES(i, 3) {
         kiriMemory_Adopt(retired, all[i]->spans.data);
         kiriMemory_Adopt(retired, all[i]->items.data);
     }
@@ -498,11 +490,12 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
 {
     const kiriPieceLists* lists = &sheet->lists;
     KIRI_ASSERT(lists->hasFrames && lists->hasMesh);
-    kiriSpan frames = kiriPieceItems_Of(&lists->frames, piece), vertices = kiriPieceItems_Of(&lists->vertices, piece);
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    kiriSpan vertices = kiriPieceItems_Of(&lists->vertices, piece);
     if (sheet->layout.pieces.data[piece].isGone) {
         return (kiriPieceState){ 0 };
     }
-    kiriTotals totals = kiriSheet_SumFrames(sheet, lists->frames.items.data + frames.first, frames.count);
+    kiriTotals totals = kiriSheet_SumFrames(sheet, frames.data, frames.count);
     kiriPieceState state = { .area = totals.area, .mass = totals.mass };
     memcpy(state.center, totals.center, sizeof(state.center));
     memcpy(state.momentum, totals.momentum, sizeof(state.momentum));

@@ -18,15 +18,12 @@ bool kiriPieces_AnyFolds(const kiriSheetData* sheet);
 /* Returns true if a piece is gone, see kiriPiece.isGone. */
 bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 
-/* After a commit: marks the pieces as gone whose origins in the old layout are. */
-void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old);
-
 /* Finds the pieces that a finished update changes: sets isTouched of the next pieces, and isStirred of their origins.
    Work beside the cut that changed nothing does not count. */
 void kiriPieces_FindTouched(kiriSheetData* sheet);
 
-/* After a commit: copies the state of sleep from the old layout to pieces that are not touched. */
-void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old);
+/* After a commit: copies from the old layout which pieces are gone, and the sleep of pieces that are not touched. */
+void kiriPieces_Keep(kiriSheetData* sheet, const kiriLayout* old);
 
 /* Returns the frame that owns a point of the material, for pins and loads. KIRI_NONE outside, and on a destroyed
    piece. */

@@ -381,16 +381,6 @@ static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned,
     kiriClamp_Measure(&row, frame, &row.pose, &pose, strain, NULL);
 }
 
-static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, int32_t frame)
-{
-    KIRI_EACH(const kiriPinShare, share, *shares) {
-        if (share->pin == pin && share->share.frame == frame) {
-            return share;
-        }
-    }
-    return NULL;
-}
-
 /* Returns the share of the same pin whose frame is nearest to a new frame, or null: the material there is bent alike. */
 static const kiriPinShare* FindPinnedBeside(const kiriSheetData* sheet, const kiriPinShares* old,
                                             const kiriPinShare* pinned)
@@ -408,42 +398,42 @@ static const kiriPinShare* FindPinnedBeside(const kiriSheetData* sheet, const ki
     return found;
 }
 
-void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
+static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriPinShare* older, kiriPinShare* pinned)
+{
+    int32_t frame = pinned->share.frame;
+    double strain[KIRI_CLAMP_STRAINS], turned[KIRI_CLAMP_STRAINS], was[KIRI_CLAMP_STRAINS] = { 0 };
+    const double none[KIRI_CLAMP_STRAINS] = { 0 };
+    MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 0.0, strain);
+    MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 1.0, turned);
+    if (older != NULL) {
+        MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
+                     older->offset[KIRI_PLANE_BENDING], was);
+    }
+    kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
+    KIRI_CLEAR(&pinned->plastic);
+    older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
+    if (older != NULL && sheet->plastics.isKept) {
+        double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
+        const kiriFrameData* bent = &sheet->frames.data[older->share.frame];
+        double before = ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length;
+        pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
+    }
+}
+
+void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStrains)
 {
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
-        const kiriPinShare* older = FindPinned(old, pinned->pin, pinned->share.frame);
+        const kiriPinShare* older = NULL;
+        KIRI_EACH_WHILE(older == NULL, const kiriPinShare, share, *old) {
+            older = share->pin == pinned->pin && share->share.frame == pinned->share.frame ? share : NULL;
+        }
         if (older != NULL) {
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
             pinned->bore = older->bore;
             pinned->off = older->off;
         }
-    }
-}
-
-void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
-{
-    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
-        int32_t frame = pinned->share.frame;
-        if (sheet->pins.data[pinned->pin].type != KIRI_PIN_CLAMP) {
-            continue;
-        }
-        const kiriPinShare* older = FindPinned(old, pinned->pin, frame);
-        double strain[KIRI_CLAMP_STRAINS], turned[KIRI_CLAMP_STRAINS], was[KIRI_CLAMP_STRAINS] = { 0 };
-        const double none[KIRI_CLAMP_STRAINS] = { 0 };
-        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 0.0, strain);
-        MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 1.0, turned);
-        if (older != NULL) {
-            MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
-                         older->offset[KIRI_PLANE_BENDING], was);
-        }
-        kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
-        KIRI_CLEAR(&pinned->plastic);
-        older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
-        if (older != NULL && sheet->plastics.isKept) {
-            double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
-            const kiriFrameData* bent = &sheet->frames.data[older->share.frame];
-            double before = ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length;
-            pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
+        if (keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+            KeepStrains(sheet, old, older, pinned);
         }
     }
 }

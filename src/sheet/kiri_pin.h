@@ -26,12 +26,10 @@ bool kiriPins_Stage(kiriSheetData* sheet);
 /* Writes sheet->linkParts. Call when links or clamps changed. Capacity is reserved. */
 void kiriPins_WriteLinkParts(kiriSheetData* sheet);
 
-/* Copies the reaction history to frames that were held before. Call after the commit. */
-void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
-
-/* Keeps the strains of clamps across a commit, if links keep theirs (kiri_strain.h). `old` are the previous shares. On
-   a frame that was not held before the strain starts at zero. Call after the commit. */
-void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old);
+/* After a commit: copies the history of reactions to frames that were held before, and if links keep their strains
+   (kiri_strain.h) those of clamps. On a frame that was not held before the strain starts at zero. `old` are the
+   previous shares. */
+void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStrains);
 
 /* Fades the offsets of clamps to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);

@@ -135,8 +135,8 @@ typedef struct kiriPieceItems {
 /* Lists by piece, built when the host requests them. */
 typedef struct kiriPieceLists {
     bool hasFrames, hasMesh;                            /* current: mesh and pieces have not changed since */
-    kiriPieceItems frames, points, vertices, triangles; /* hasFrames: frames, points; hasMesh: vertices, triangles */
-    KIRI_ARRAY(kiriFrame) ids;                          /* ids of `frames` */
+    kiriPieceItems points, vertices, triangles;         /* hasFrames: points; hasMesh: vertices, triangles */
+    KIRI_ARRAY(kiriFrame) ids;                          /* of frames, in the order of bodies */
     kiriIndices corners;                                /* vertex indices of `triangles` */
 } kiriPieceLists;
 

@@ -845,13 +845,9 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLayout layout = sheet->layout;
     sheet->layout = u->next;
     u->next = layout;
-    kiriPieces_KeepGone(sheet, &u->next);
-    kiriPieces_KeepRest(sheet, &u->next);
+    kiriPieces_Keep(sheet, &u->next);
     kiriPins_WriteLinkParts(sheet);
-    kiriPins_KeepReactions(sheet, &u->next.pinShares);
-    if (keepsStrains) {
-        kiriPins_KeepStrains(sheet, &u->next.pinShares);
-    }
+    kiriPins_Keep(sheet, &u->next.pinShares, keepsStrains);
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
     kiriView_Resize(sheet, sheet->frames.count);

@@ -246,7 +246,7 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
 {
     PREPARES_PIECE(piece, frames, kiriPieces_ListFrames(found));
     KIRI_CHECK_OUT(count);
-    kiriSpan span = kiriPieceItems_Of(&found->lists.frames, piece);
+    kiriSpan span = found->solver->bodies.bodies.data[piece].frames;
     *frames = found->lists.ids.data + span.first;
     *count = found->layout.pieces.data[piece].isGone ? 0 : span.count;
     KIRI_RETURN(KIRI_OK);
