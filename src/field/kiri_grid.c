@@ -33,8 +33,8 @@ static void AppendIndex(kiriGrid* grid, kiriIndices* list, int32_t index)
     grid->work->outOfMemory = grid->work->outOfMemory || !ok;
 }
 
-/* Sets a flag of a square until the end of the update; false if it was set. Appends the square to the flag's list, if it
-   has one. */
+/* Sets a flag of a square until the end of the update; false if it was set. Appends the square to the flag's list, if
+   the flag has one. */
 static bool FlagSquare(kiriGrid* grid, int32_t square, uint8_t flag, kiriIndices* list)
 {
     KIRI_ASSERT(grid->work->running && square >= 0 && square < grid->work->squareFlags.count);
