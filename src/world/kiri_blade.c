@@ -7,7 +7,7 @@
 /* The points that one cut gets. */
 typedef struct Stroke {
     kiriSheetData* sheet;
-    kiriCutData* cut; /* null: a new one */
+    kiriCutData* cut; /* without a sheet: a new one, in a block of the move */
     bool isOver;      /* the cut ends */
 } Stroke;
 
@@ -91,15 +91,22 @@ typedef struct BladeWork {
 
 /* ---- Strokes ----------------------------------------------------------------------------------------------------- */
 
+static bool AddStart(BladeWork* work, int32_t stroke, kiriVec2 rest)
+{
+    const StrokePoint point = { stroke, rest, true };
+    return kiriArray_Push(&work->memory, &work->points, point);
+}
+
 /* Returns the stroke of a track. A new cut begins where the track is. KIRI_NONE for memory. */
 static int32_t StrokeOf(BladeWork* work, Track* track)
 {
     KIRI_ASSERT(track->sheet == work->sheet && track->stroke < work->strokes.count);
     if (track->stroke == KIRI_NONE) {
-        const Stroke stroke = { track->sheet, track->cut, false };
-        const StrokePoint start = { work->strokes.count, track->rest, true };
-        if (!kiriArray_Push(&work->memory, &work->strokes, stroke) ||
-            (track->cut == NULL && !kiriArray_Push(&work->memory, &work->points, start))) {
+        bool isNew = track->cut == NULL;
+        kiriCutData* cut = isNew ? kiriMemory_AllocZeroed(&work->memory, sizeof(*cut)) : track->cut;
+        const Stroke stroke = { track->sheet, cut, false };
+        if (cut == NULL || !kiriArray_Push(&work->memory, &work->strokes, stroke) ||
+            (isNew && !AddStart(work, work->strokes.count - 1, track->rest))) {
             return KIRI_NONE;
         }
         track->stroke = work->strokes.count - 1;
@@ -113,12 +120,6 @@ static bool AddCut(BladeWork* work, int32_t stroke, kiriVec2 from, kiriVec2 to)
     const StrokePoint point = { stroke, to, false };
     const PendingLip lip = { work->sheet, from, to, stroke };
     return kiriArray_Push(&work->memory, &work->points, point) && kiriArray_Push(&work->memory, &work->pending, lip);
-}
-
-static bool AddStart(BladeWork* work, int32_t stroke, kiriVec2 rest)
-{
-    const StrokePoint point = { stroke, rest, true };
-    return kiriArray_Push(&work->memory, &work->points, point);
 }
 
 static bool AddTrackPoint(BladeWork* work, Track* track, kiriVec2 rest)
@@ -868,57 +869,26 @@ static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeDa
 
 /* ---- Into the world ---- */
 
-typedef KIRI_ARRAY(kiriCutData*) CutList;
-
-/* Makes room in the queues and lists of cuts, and for ids. */
+/* Makes room for all strokes in the queue and the list of cuts of each of their sheets, and for ids. */
 static kiriResult ReserveStrokes(kiriWorld* world, const BladeWork* work)
 {
-    int64_t made = 0;
-    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
-        int64_t points = sheet->queue.count, cuts = sheet->cuts.count;
-        KIRI_EACH_INDEX(k, work->points) {
-            points += work->strokes.data[work->points.data[k].stroke].sheet == sheet;
-        }
-        KIRI_EACH_INDEX(k, work->strokes) {
-            cuts += work->strokes.data[k].sheet == sheet && work->strokes.data[k].cut == NULL;
-            points += work->strokes.data[k].sheet == sheet; /* to end with */
-        }
-        made += cuts - sheet->cuts.count;
-        if (!kiriArray_Reserve(&world->memory, &sheet->queue, points) ||
-            !kiriArray_Reserve(&world->memory, &sheet->cuts, cuts)) {
+    int64_t made = 0, strokes = work->strokes.count, points = work->points.count + strokes; /* each may end with one */
+    KIRI_EACH(const Stroke, stroke, work->strokes) {
+        made += stroke->cut->sheet == NULL;
+        if (!kiriArray_ReserveMore(&world->memory, &stroke->sheet->queue, points) ||
+            !kiriArray_ReserveMore(&world->memory, &stroke->sheet->cuts, strokes)) {
             return KIRI_ERROR_MEMORY;
         }
     }
     return kiriWorld_ReserveIds(world, &world->cutIds, made);
 }
 
-/* Allocates the new cuts; all or none. */
-static bool MakeCuts(kiriWorld* world, BladeWork* work, CutList* made)
-{
-    bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, i, work->strokes) {
-        if (work->strokes.data[i].cut == NULL) {
-            kiriCutData* cut = kiriMemory_AllocZeroed(&world->memory, sizeof(*cut));
-            ok = cut != NULL && kiriArray_Push(&work->memory, made, cut);
-            if (!ok) {
-                kiriMemory_Free(&world->memory, cut);
-            }
-        }
-    }
-    KIRI_TIMES_WHILE(!ok, i, made->count) {
-        kiriMemory_Free(&world->memory, made->data[i]);
-    }
-    return ok;
-}
-
 /* Adds the points to the queues of their cuts. Never fails. */
-static void QueueStrokes(kiriWorld* world, BladeWork* work, const CutList* made)
+static void QueueStrokes(kiriWorld* world, BladeWork* work)
 {
-    int32_t used = 0;
-    KIRI_EACH(Stroke, stroke, work->strokes) {
-        if (stroke->cut == NULL) {
-            KIRI_ASSERT(used < made->count);
-            stroke->cut = made->data[used++];
+    KIRI_EACH(const Stroke, stroke, work->strokes) {
+        if (stroke->cut->sheet == NULL) {
+            kiriMemory_Adopt(&world->memory, stroke->cut);
             kiriWorld_EnlistCut(world, stroke->sheet, stroke->cut);
         }
     }
@@ -935,15 +905,13 @@ static void QueueStrokes(kiriWorld* world, BladeWork* work, const CutList* made)
 
 static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
 {
-    CutList made = { 0 };
-    kiriResult result = ReserveStrokes(world, work);
+    kiriResult result = kiriArray_Reserve(&world->memory, &blade->layers, work->tracks.count)
+                            ? ReserveStrokes(world, work)
+                            : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         return result;
     }
-    if (!kiriArray_Reserve(&world->memory, &blade->layers, work->tracks.count) || !MakeCuts(world, work, &made)) {
-        return KIRI_ERROR_MEMORY;
-    }
-    QueueStrokes(world, work, &made);
+    QueueStrokes(world, work);
     KIRI_ASSERT(blade->layers.capacity >= work->tracks.count);
     blade->layers.count = 0;
     KIRI_EACH(const Track, track, work->tracks) {
