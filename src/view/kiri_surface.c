@@ -343,29 +343,17 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
 
 /* ---- Hidden triangles -------------------------------------------------------------------------------------------- */
 
-static int32_t LentAfter(int64_t ticks)
-{
-    return 1 + (int32_t)(ticks % INT32_MAX);
-}
-
-void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks)
-{
-    kiriWord_Leave(&surface->lentAt, LentAfter(ticks));
-}
-
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks)
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired)
 {
     kiriIndices fresh = { 0 };
     kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
-    if (surface->lentAt != LentAfter(ticks) || !kiriArray_Resize(memory, &fresh, was.count)) {
-        return surface->lentAt != LentAfter(ticks);
+    KIRI_ASSERT(was.count > 0);
+    if (!kiriArray_Resize(memory, &fresh, was.count)) {
+        return false;
     }
-    if (was.count > 0) { /* an empty array may be null */
-        memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
-    }
+    memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
     kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
     kiriMemory_Adopt(retired, was.data);
-    surface->lentAt = 0;
     return true;
 }
 
@@ -676,7 +664,6 @@ KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
     KIRI_RUN(4, changes),
     KIRI_WITHIN(0, KIRI_CHANGES, changeCount),
     KIRI_WITHIN(0, KIRI_CHANGES - 1, lastChange),
-    KIRI_DROPPED(lentAt),
     KIRI_DROPPED(hasSlopes),
     KIRI_DERIVED,
     KIRI_ARRAYS(positions, normals, restPositions, sourceWeights, indices, sourceTriangles),

@@ -73,7 +73,6 @@ typedef struct kiriSurface {
     kiriIndices indices, sourceTriangles;
     int32_t vertexCount, triangleCount;
     uint32_t revision;
-    int32_t lentAt; /* 1 + the tick after which the host last got the indices */
 
     KIRI_ARRAY(kiriVec2) rest; /* local m */
     kiriFlags turns;           /* of pairs of triangles, for normals: see kiriCorners */
@@ -200,12 +199,9 @@ static inline int32_t* kiriSurface_Triangle(const kiriSurface* surface, int32_t 
     return &surface->indices.data[3 * (int64_t)triangle];
 }
 
-/* Notes that the host gets the indices in this tick. Safe to call from several threads. */
-void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
-
-/* Copies the indices to a new array if the host holds them; the old one gets the owner `retired`. Returns false on out of
-   memory. */
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks);
+/* Copies the indices to a new array; the old one, which the host may hold, gets the owner `retired`. Returns false on out
+   of memory. */
+bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired);
 
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);

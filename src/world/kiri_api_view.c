@@ -14,7 +14,6 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
 {
     KIRI_READS_OF(sheet, mesh);
     const kiriSurface* surface = &found->seen.surface;
-    kiriSurface_LendIndices(surface, world->ticks);
     mesh->positions = surface->positions.data;
     mesh->normals = surface->wantsNormals ? surface->normals.data : NULL;
     mesh->restPositions = surface->restPositions.data;

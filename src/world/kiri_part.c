@@ -442,8 +442,8 @@ static kiriResult Destroy(Parting* parting)
     bool ok = MapSources(parting, false) && StageSources(parting);
     KIRI_EACH_WHILE(ok, const PartSource, source, parting->sources) { /* triangles will be hidden in the indices */
         kiriSheetData* sheet = source->detach.sheet;
-        ok = !source->waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
-                                                        parting->world->ticks);
+        ok = !source->waits ||
+             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
     }
     if (!ok) {
         return KIRI_ERROR_MEMORY;
