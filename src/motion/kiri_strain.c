@@ -793,17 +793,6 @@ static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int
     }
 }
 
-/* Stores the offsets of links whose index changes. Most links keep their index. */
-static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
-{
-    KIRI_TIMES(k, linkCount) {
-        int32_t from = strainOffsets->from.data[k];
-        if (from != k && from != KIRI_NONE && from < strainOffsets->strainOffsets.count) {
-            strainOffsets->older.data[from] = strainOffsets->strainOffsets.data[from];
-        }
-    }
-}
-
 void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
                             int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was,
                             const kiriFrameData* frames, const kiriMaterial* material)
@@ -813,19 +802,19 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plas
     int32_t had = strainOffsets->strainOffsets.count;
     kiriStrainOffset* offsets = strainOffsets->strainOffsets.data;
     FindOlder(strainOffsets, old, oldCount, links, linkCount, was);
-    SaveOlder(strainOffsets, linkCount);
+    if (had > 0) {
+        memcpy(strainOffsets->older.data, offsets, sizeof(*offsets) * (size_t)had);
+    }
     KIRI_TIMES(k, linkCount) {
         int32_t from = strainOffsets->from.data[k];
-        const kiriStrainOffset* older = from == KIRI_NONE || from >= had ? &none
-                                        : from == k                      ? &offsets[k]
-                                                                         : &strainOffsets->older.data[from];
+        const kiriStrainOffset* older = from == KIRI_NONE || from >= had ? &none : &strainOffsets->older.data[from];
         bool isSame = from != KIRI_NONE &&
                       ((was != NULL && was[k] == from) || memcmp(&old[from], &links[k], sizeof(*links)) == 0);
         if (!isSame || !IsFrameUnmoved(strainOffsets, frames, links[k].i) ||
             !IsFrameUnmoved(strainOffsets, frames, links[k].j)) {
             offsets[k] = StrainOffsetOf(strainOffsets, &links[k], from != KIRI_NONE ? &old[from] : NULL, older, frames,
                                         material);
-        } else if (older != &offsets[k]) {
+        } else {
             offsets[k] = *older;
         }
     }

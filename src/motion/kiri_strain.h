@@ -180,7 +180,7 @@ typedef struct kiriStrainOffset {
 
 typedef struct kiriStrainOffsets {
     KIRI_ARRAY(kiriStrainOffset) strainOffsets; /* one a link; empty if no cut has changed links */
-    KIRI_ARRAY(kiriStrainOffset) older;         /* scratch: offsets by old index, for links whose index changes */
+    KIRI_ARRAY(kiriStrainOffset) older;         /* scratch: before the commit */
     kiriIndices from;                           /* scratch: index of the old link, or KIRI_NONE */
     KIRI_ARRAY(kiriFrameData) frames;           /* scratch: frames before the commit, where mayMove is set */
     kiriFlags mayMove;                          /* scratch: 1 if the commit may move the frame */
