@@ -393,7 +393,7 @@ bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count)
     return kiriPool_HasRoom(pool, count) && kiriArray_Reserve(memory, &pool->slots, pool->slots.count + fresh);
 }
 
-uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index)
+uint32_t kiriPool_Add(kiriPool* pool, void* owner, int32_t index)
 {
     KIRI_ASSERT(owner != NULL);
     int32_t slot = pool->freeSlot;
@@ -401,12 +401,8 @@ uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t i
         pool->freeSlot = pool->slots.data[slot].index;
         pool->freeCount -= 1;
     } else {
-        kiriSlot fresh = { NULL, 0, 1u };
-        if (!kiriPool_Reserve(pool, memory, 1)) {
-            return 0;
-        }
-        slot = pool->slots.count++;
-        pool->slots.data[slot] = fresh;
+        slot = pool->slots.count;
+        KIRI_NEXT(pool->slots) = (kiriSlot){ NULL, 0, 1u };
     }
     kiriSlot* s = &pool->slots.data[slot];
     KIRI_ASSERT(s->owner == NULL);

@@ -282,11 +282,11 @@ void kiriPool_Init(kiriPool* pool, uint32_t kind);
 /* Returns true if `count` ids are left. */
 bool kiriPool_HasRoom(const kiriPool* pool, int64_t count);
 
-/* Makes `count` calls of Add safe from failure. Returns false if fewer ids are left, or on out of memory. */
+/* Makes room for `count` calls of Add. Returns false if fewer ids are left, or on out of memory. */
 bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count);
 
-/* Returns an id; 0 if none is left, or on out of memory. */
-uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index);
+/* Returns an id, for which there is room. */
+uint32_t kiriPool_Add(kiriPool* pool, void* owner, int32_t index);
 
 /* Returns null for a stale or foreign id. */
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);

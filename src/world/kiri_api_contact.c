@@ -267,7 +267,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
     }
     if (result == KIRI_OK) {
         KIRI_ASSERT(data->pins.count > 0 && data->pins.data[data->pins.count - 1].type == made->type);
-        *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
+        *pin = kiriPool_Add(&world->pinIds, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
         kiriSheet_WakePin(data, data->pins.count - 1);

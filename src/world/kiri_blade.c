@@ -716,7 +716,7 @@ kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData**
         return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
     }
     blade->sheet = sheet;
-    blade->id = kiriPool_Add(&world->bladeIds, &world->memory, blade, 0);
+    blade->id = kiriPool_Add(&world->bladeIds, blade, 0);
     KIRI_NEXT(world->blades) = blade;
     *made = blade;
     return KIRI_OK;

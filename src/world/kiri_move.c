@@ -110,7 +110,7 @@ kiriResult kiriObstacles_Reserve(kiriWorld* world)
 void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 {
     KIRI_NEXT(world->obstacles) = obstacle;
-    obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
+    obstacle->id = kiriPool_Add(&world->obstacleIds, obstacle, 0);
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         sheet->touches.rests.areSummed = false; /* another obstacle may have had its slot */
     }

@@ -255,12 +255,12 @@ static void AddSheetOfPart(kiriWorld* world, const Part* part)
     kiriSheetData* sheet = part->sheet;
     KIRI_ASSERT(world->sheets.count < world->sheets.capacity && sheet->layout.pieces.count == 1);
     KIRI_NEXT(world->sheets) = sheet;
-    sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
+    sheet->id = kiriPool_Add(&world->sheetIds, sheet, 0);
     kiriMemory_Adopt(&world->retired, (void*)sheet->past.others);
     KIRI_EACH_INDEX(i, sheet->pins) {
         const kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
         if (slot->owner != detach->sheet || kiriKeep_Has(&detach->rest.pins, slot->index)) {
-            sheet->pins.data[i].id = kiriPool_Add(&world->pinIds, &world->memory, sheet, i);
+            sheet->pins.data[i].id = kiriPool_Add(&world->pinIds, sheet, i);
         }
     }
     PointIds(world, sheet);

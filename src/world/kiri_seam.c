@@ -325,7 +325,7 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
     seam->bending = def->stiffness;
     seam->restAngle = def->restAngle;
     seam->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
-    seam->id = kiriPool_Add(&world->seamIds, &world->memory, seam, 0);
+    seam->id = kiriPool_Add(&world->seamIds, seam, 0);
     KIRI_NEXT(world->seams) = seam;
     kiriSeams_Wake(world, seam);
     *made = seam;

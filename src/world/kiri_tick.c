@@ -194,7 +194,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
     profile->commits += 1;
     KIRI_FROM_TO(i, oldFrames, sheet->frames.count) {
         bool isGone = kiriSheet_IsGone(sheet, i);
-        sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+        sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, sheet, i);
     }
     KIRI_EACH(const kiriPiece, each, sheet->layout.pieces) {
         if (each->cameOff && !each->isGone) {

@@ -64,9 +64,9 @@ kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, const k
         return result;
     }
     KIRI_NEXT(world->sheets) = sheet;
-    sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
+    sheet->id = kiriPool_Add(&world->sheetIds, sheet, 0);
     KIRI_EACH_INDEX(i, sheet->frames) {
-        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
+        sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, sheet, i);
     }
     kiriView_WritePositions(sheet);
     sheet->past = kiriPast_None(world->begun);
@@ -111,7 +111,7 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
 {
     cut->sheet = sheet;
     cut->tip.blade.vertex = KIRI_NONE;
-    cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
+    cut->id = kiriPool_Add(&world->cutIds, cut, 0);
     cut->index = sheet->cuts.count;
     KIRI_NEXT(sheet->cuts) = cut;
     sheet->rest.isIdle = false;
