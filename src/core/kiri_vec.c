@@ -209,18 +209,17 @@ void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, doubl
 {
     KIRI_ASSERT((sign == 1 || sign == -1) && extent > 0.0);
     double one = 1.0 / extent, two = one * one, three = two * one, four = two * two;
-    AddShare(&tally->area, two * moments->area, sign);
-    AddShare(&tally->u, three * moments->u, sign);
-    AddShare(&tally->v, three * moments->v, sign);
-    AddShare(&tally->uu, four * moments->uu, sign);
-    AddShare(&tally->uv, four * moments->uv, sign);
-    AddShare(&tally->vv, four * moments->vv, sign);
+    const double shares[6] = { two * moments->area, three * moments->u, three * moments->v,
+                               four * moments->uu,  four * moments->uv, four * moments->vv };
+    KIRI_TIMES(k, 6) {
+        AddShare(&tally->of[k], shares[k], sign);
+    }
 }
 
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent)
 {
     double two = extent * extent, three = two * extent, four = two * two;
-    kiriMoments moments = { two * ToShare(tally->area), three * ToShare(tally->u), three * ToShare(tally->v),
-                            four * ToShare(tally->uu),  four * ToShare(tally->uv), four * ToShare(tally->vv) };
+    kiriMoments moments = { two * ToShare(tally->of[0]),  three * ToShare(tally->of[1]), three * ToShare(tally->of[2]),
+                            four * ToShare(tally->of[3]), four * ToShare(tally->of[4]),  four * ToShare(tally->of[5]) };
     return moments;
 }

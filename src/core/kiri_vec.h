@@ -317,9 +317,9 @@ typedef struct kiriExact {
     int64_t high, low;
 } kiriExact;
 
-/* Moments of material (see kiriMoments); coordinates are at most `extent` (m, local). */
+/* Moments of material, in the order of kiriMoments; coordinates are at most `extent` (m, local). */
 typedef struct kiriTally {
-    kiriExact area, u, v, uu, uv, vv;
+    kiriExact of[6];
 } kiriTally;
 
 /* Adds (sign 1) or subtracts (-1) moments. The total area is at most 7 extent^2 at any time. */

@@ -109,7 +109,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
-    const kiriTally none = { .area = { 0 } };
+    const kiriTally none = { 0 };
     if (!kiriField_Resize(&r->field, u->memory, cellCount, KIRI_FIELD_OWNERS | KIRI_FIELD_REPAIRS) ||
         !kiriArrays_Resize(u->memory, cellCount, &r->siteAt, &r->onBorder) ||
         !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||

@@ -266,23 +266,18 @@ typedef struct MotionFit {
     double energy;        /* kinetic */
 } MotionFit;
 
-typedef char TallyIsSixNumbers[sizeof(kiriTally) == 6 * sizeof(kiriExact) ? 1 : -1];
-
 /* Subtracts exactly, so that an empty sum is zero. */
 static void SubtractTally(kiriTally* sum, const kiriTally* part)
 {
-    kiriExact a[6], b[6];
-    memcpy(a, sum, sizeof(a));
-    memcpy(b, part, sizeof(b));
     KIRI_TIMES(k, 6) {
-        a[k].high -= b[k].high;
-        a[k].low -= b[k].low;
-        if (a[k].low < 0) {
-            a[k].low += (int64_t)1 << 62;
-            a[k].high -= 1;
+        kiriExact* to = &sum->of[k];
+        to->high -= part->of[k].high;
+        to->low -= part->of[k].low;
+        if (to->low < 0) {
+            to->low += (int64_t)1 << 62;
+            to->high -= 1;
         }
     }
-    memcpy(sum, a, sizeof(a));
 }
 
 /* Visits the part with the material of a tally, as it moved before. */
