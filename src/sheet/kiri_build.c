@@ -124,8 +124,10 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (sheet->seen.surface.wantsNormals) {
         kiriSurface_NeedNormals(&sheet->seen.surface);
     }
-    kiriPlastics_Start(&sheet->plastics, sheet->links.links.count);
-    kiriStrainOffsets_Start(&sheet->strainOffsets, sheet->plastics.isKept ? sheet->links.links.count : 0);
+    if (sheet->plastics.isKept) { /* links that never yielded */
+        kiriArray_Extend(&sheet->plastics.links, sheet->links.links.count, 0);
+        kiriArray_Extend(&sheet->strainOffsets.strainOffsets, sheet->links.links.count, 0);
+    }
     if (!kiriSheet_KeepsStrains(sheet)) { /* without fadeTime links and clamps have no strain offsets (kiri_strain.h) */
         sheet->strainOffsets.strainOffsets.count = 0;
         KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {

@@ -132,10 +132,10 @@ static void ResizeBlocks(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
     KIRI_ASSERT(count <= blocks->movers.capacity && frameCount <= blocks->moved.capacity);
-    blocks->touched.count = blocks->stale.count = blocks->movers.count = count;
+    blocks->touched.count = blocks->movers.count = count;
     blocks->moved.count = frameCount;
     KIRI_FROM_TO(block, old, count) {
-        blocks->touched.data[block] = blocks->stale.data[block] = 0;
+        blocks->touched.data[block] = 0;
         ForgetBlock(blocks, block);
     }
     KIRI_FROM_TO(i, oldFrames, frameCount) {
@@ -190,32 +190,30 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t po
 
 /* ---- Sleeping blocks ---- */
 
-/* Returns true if a commit moved deferred pieces whose normals and bounds are still stale. */
-static bool HasMovedWaiting(const kiriSheetData* sheet)
+/* Returns true if sleeping blocks keep their normals and bounds. A commit may move deferred pieces, too. */
+static bool IsPartlyDrawn(const kiriSheetData* sheet)
 {
-    return sheet->seen.surface.isPartly && sheet->turns.waiting > 0 && sheet->seen.isElsewhere;
+    return sheet->seen.surface.isPartly && !(sheet->turns.waiting > 0 && sheet->seen.isElsewhere);
 }
 
-/* Returns true if the block moves or, with orStale, has stale normals. */
-static inline bool IsMeant(const kiriBlocks* blocks, int32_t block, bool orStale)
+static inline bool IsBlockMoved(const kiriSheetData* sheet, int32_t block)
 {
-    return blocks->movers.data[block] != KIRI_NONE || (orStale && blocks->stale.data[block]);
+    return sheet->seen.blocks.movers.data[block] != KIRI_NONE;
 }
 
 typedef void WriteVerticesFn(kiriSheetData* sheet, int32_t begin, int32_t end);
 
-/* Calls `write` for all vertices; if only a part is written, for runs of blocks with IsMeant. */
-static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orStale, WriteVerticesFn* write)
+/* Calls `write` for all vertices; if only a part is written, for runs of blocks that move. */
+static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool isPartly, WriteVerticesFn* write)
 {
-    if (!sheet->seen.surface.isPartly) {
+    if (!isPartly) {
         write(sheet, begin, end);
         return;
     }
     for (int32_t next; begin < end; begin = next) {
-        const kiriBlocks* blocks = &sheet->seen.blocks;
         int32_t block = begin / KIRI_BLOCK, last = (end - 1) / KIRI_BLOCK;
-        bool are = IsMeant(blocks, block, orStale);
-        while (block < last && IsMeant(blocks, block + 1, orStale) == are) {
+        bool are = IsBlockMoved(sheet, block);
+        while (block < last && IsBlockMoved(sheet, block + 1) == are) {
             ++block;
         }
         next = block < last ? (block + 1) * KIRI_BLOCK : end;
@@ -233,8 +231,7 @@ bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts)
     return kiriSurface_Reserve(&seen->surface, &sheet->shown, counts.vertices, counts.triangles, counts.frames) &&
            kiriArray_Reserve(&sheet->shown, &seen->pointPositions, 3 * (int64_t)counts.points) &&
            kiriArray_Reserve(sheet->memory, &seen->exactPoints, counts.points) &&
-           kiriArrays_Reserve(sheet->memory, blocks, &seen->blocks.touched, &seen->blocks.stale,
-                              &seen->blocks.movers) &&
+           kiriArrays_Reserve(sheet->memory, blocks, &seen->blocks.touched, &seen->blocks.movers) &&
            kiriArray_Reserve(sheet->memory, &seen->blocks.moved, counts.frames) &&
            (!isSeen || kiriView_ReserveFades(sheet, counts.vertices, counts.points, seen->fades.time));
 }
@@ -250,42 +247,11 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
     seen->exactPoints.count = sheet->points.count;
 }
 
-static void StaleBlock(kiriSheetData* sheet, int32_t vertex)
-{
-    KIRI_ASSERT(vertex < sheet->mesh.vertices.count);
-    if (vertex >= 0) {
-        sheet->seen.blocks.stale.data[vertex / KIRI_BLOCK] = 1;
-    }
-}
-
-static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
-{
-    KIRI_EACH_CORNER(k) {
-        StaleBlock(sheet, corners[k]);
-    }
-}
-
-/* Marks the blocks of corners of changed triangles, and of vertices that lost a triangle, as stale. */
-static void StaleChanges(kiriSheetData* sheet)
-{
-    const kiriMeshData* mesh = &sheet->mesh;
-    KIRI_EACH(const int32_t, triangle, mesh->changedTriangles) {
-        StaleCorners(sheet, mesh->triangles.data[*triangle].vertex);
-    }
-    KIRI_EACH(const int32_t, changed, mesh->changedVertices) {
-        StaleBlock(sheet, *changed);
-    }
-    KIRI_FROM_TO(t, mesh->oldTriangleCount, mesh->triangles.count) {
-        StaleCorners(sheet, mesh->triangles.data[t].vertex);
-    }
-}
-
 static void HideTriangles(kiriSheetData* sheet)
 {
     KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
         int32_t piece = kiriPiece_OfTriangle(sheet, t);
         if (sheet->layout.pieces.data[piece].isGone) {
-            StaleCorners(sheet, kiriSurface_Triangle(&sheet->seen.surface, t));
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }
     }
@@ -320,7 +286,6 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
         }
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
-    StaleChanges(sheet);
     if (kiriPieces_AnyGone(sheet)) {
         HideTriangles(sheet); /* a cut may have split triangles of a destroyed piece */
     }
@@ -354,9 +319,6 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
     if (seen->surface.isPartly && (moved->version != seen->lists || seen->blocks.hasUnknown)) {
         FindMovers(sheet);
         seen->lists = moved->version;
-    }
-    if (HasMovedWaiting(sheet)) {
-        kiriArray_Set(&seen->blocks.stale, 1);
     }
     seen->surface.isWritten &= seen->fades.fading.count == 0;
 }
@@ -539,7 +501,7 @@ static void WriteVertices(kiriSheetData* sheet, int32_t begin, int32_t end)
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        ForBlocks(sheet, begin, end, false, BlendVertices);
+        ForBlocks(sheet, begin, end, sheet->seen.surface.isPartly, BlendVertices);
     }
 }
 
@@ -551,24 +513,23 @@ static bool IsSumKnown(const kiriSheetData* sheet)
 {
     enum { FEW = 8 };
     const kiriSurface* surface = &sheet->seen.surface;
-    bool isKnown = surface->isPartly && surface->hasSlopes && surface->hasNormals && surface->wantsNormals;
+    bool isKnown = IsPartlyDrawn(sheet) && surface->hasSlopes && surface->hasNormals && surface->wantsNormals;
     int32_t anew = 0, blocks = (surface->vertexCount + KIRI_BLOCK - 1) / KIRI_BLOCK;
     KIRI_TIMES_WHILE(isKnown, block, blocks) {
-        anew += IsMeant(&sheet->seen.blocks, block, true);
+        anew += IsBlockMoved(sheet, block);
     }
     return isKnown && FEW * (int64_t)anew <= blocks;
 }
 
-/* Sums the normals of blocks that move or are stale. No triangle has vertices of both a moving and a sleeping piece. */
+/* Sums the normals of blocks that move. No triangle has vertices of both a moving and a sleeping piece. */
 static bool SumSomeNormals(kiriSheetData* sheet)
 {
-    const kiriBlocks* blocks = &sheet->seen.blocks;
     bool ok = true;
     KIRI_TIMES_WHILE(ok, v, sheet->seen.surface.vertexCount) {
         int32_t block = v / KIRI_BLOCK;
-        if (!IsMeant(blocks, block, true)) {
+        if (!IsBlockMoved(sheet, block)) {
             v = (block + 1) * KIRI_BLOCK - 1;
-        } else if (blocks->stale.data[block] || IsVertexAwake(sheet, v)) {
+        } else if (IsVertexAwake(sheet, v)) {
             ok = kiriSurface_SumNormal(&sheet->seen.surface, &sheet->mesh, v);
         }
     }
@@ -592,7 +553,7 @@ void kiriView_Sum(kiriSheetData* sheet)
     kiriSeen* seen = &sheet->seen;
     if (!seen->surface.isWritten) {
         if (kiriSurface_HasDetail(&seen->surface)) {
-            ForBlocks(sheet, 0, seen->surface.vertexCount, true, DrawVertices);
+            ForBlocks(sheet, 0, seen->surface.vertexCount, IsPartlyDrawn(sheet), DrawVertices);
             kiriDetail_Measure(&seen->surface.detail);
         }
         if (IsSumKnown(sheet) && SumSomeNormals(sheet)) {
@@ -613,20 +574,17 @@ void kiriView_Sum(kiriSheetData* sheet)
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     if (!sheet->seen.surface.isWritten) {
-        ForBlocks(sheet, begin, end, true, WriteVertices);
+        ForBlocks(sheet, begin, end, IsPartlyDrawn(sheet), WriteVertices);
     }
 }
 
 void kiriView_EndWriting(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
-    if (!seen->surface.isWritten) {
-        kiriArray_Set(&seen->blocks.stale, 0);
-    }
     if (seen->isElsewhere) {
         kiriArray_Set(&seen->blocks.touched, 0);
     }
-    seen->surface.isPartly &= !HasMovedWaiting(sheet); /* for boxes */
+    seen->surface.isPartly = IsPartlyDrawn(sheet); /* for boxes */
     seen->isElsewhere = false;
     seen->surface.isWritten = seen->fades.fading.count == 0;
     seen->surface.isSteady = true;

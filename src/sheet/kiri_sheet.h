@@ -358,7 +358,6 @@ typedef struct kiriGivenContact {
 /* Caches for each block of vertices, see kiri_seen.h. */
 typedef struct kiriBlocks {
     kiriFlags touched;                /* the weights of a vertex changed, or a vertex fades */
-    kiriFlags stale;                  /* triangles changed, so normals are stale */
     kiriIndices movers;               /* an awake frame of the block; KIRI_NONE: it sleeps; or KIRI_UNKNOWN */
     kiriFlags moved;                  /* per frame: true if it was awake when movers were found last */
     bool hasUnknown;                  /* a mover is unknown */

@@ -174,7 +174,7 @@ KIRI_TABLE(TouchesTable, kiriTouches, {
 
 KIRI_TABLE(BlocksTable, kiriBlocks, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(touched, stale, movers, moved),
+    KIRI_ARRAYS(touched, movers, moved),
 })
 
 KIRI_TABLE(SeenTable, kiriSeen, {
@@ -409,7 +409,6 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
     if (!kiriArchive_HasFailed(archive)) {
         kiriView_Resize(sheet, counts.frames);
         kiriArray_Set(&blocks->touched, 1);
-        kiriArray_Set(&blocks->stale, 1);
     }
 }
 
