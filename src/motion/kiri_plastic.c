@@ -180,33 +180,42 @@ static kiriVec2 CurvatureOf(const kiriBentStrain* strain, const kiriLink* link)
     return kiriLink_FromEdge(link, v);
 }
 
-static void AddLink(kiriPlasticRegion* region, const kiriLink* link, kiriVec2 curvature, double reach)
+/* Adds a link to its two regions. */
+static void AddLink(kiriPlasticRegion* regions, const kiriLink* link, const kiriBentStrain* strain, double reach)
 {
     double w = link->width * link->length;
-    kiriVec2 n = kiriVec2_Scale(w, link->normal);
-    region->matrix.uu += n.x * link->normal.x;
-    region->matrix.uv += n.x * link->normal.y;
-    region->matrix.vv += n.y * link->normal.y;
-    region->by[0] = kiriVec2_Add(region->by[0], kiriVec2_Scale(curvature.x, n));
-    region->by[1] = kiriVec2_Add(region->by[1], kiriVec2_Scale(curvature.y, n));
-    region->reach += w * reach;
-    region->weight += w;
+    kiriVec2 n = kiriVec2_Scale(w, link->normal), curvature = CurvatureOf(strain, link);
+    KIRI_TIMES(end, 2) {
+        kiriPlasticRegion* region = &regions[end == 0 ? link->i : link->j];
+        region->matrix.uu += n.x * link->normal.x;
+        region->matrix.uv += n.x * link->normal.y;
+        region->matrix.vv += n.y * link->normal.y;
+        region->by[0] = kiriVec2_AddScaled(region->by[0], curvature.x, n);
+        region->by[1] = kiriVec2_AddScaled(region->by[1], curvature.y, n);
+        region->reach += w * reach;
+        region->weight += w;
+    }
 }
 
 /* Solves twice, the second time for the residual of the first: so the addition to the matrix affects only the undetermined
-   part. */
-static void SolveRegion(kiriPlasticRegion* region)
+   part. Regions without links have no curvature. */
+static void SolveRegions(kiriPlasticRegion* regions, int32_t count)
 {
     const double share = 0.02;
-    kiriTensor m = region->matrix, more, t;
-    double least = share * (m.uu + m.vv);
-    m.uu += least;
-    m.vv += least;
-    t = kiriTensor_Solve(m, region->by);
-    const kiriVec2 rest[2] = { { least * t.uu, least * t.uv }, { least * t.uv, least * t.vv } };
-    more = kiriTensor_Solve(m, rest);
-    region->bent = (kiriTensor){ t.uu + more.uu, t.uv + more.uv, t.vv + more.vv };
-    region->reach /= region->weight;
+    KIRI_TIMES(f, count) {
+        kiriPlasticRegion* region = &regions[f];
+        if (region->weight > 0.0) {
+            kiriTensor m = region->matrix, more, t;
+            double least = share * (m.uu + m.vv);
+            m.uu += least;
+            m.vv += least;
+            t = kiriTensor_Solve(m, region->by);
+            const kiriVec2 rest[2] = { { least * t.uu, least * t.uv }, { least * t.uv, least * t.vv } };
+            more = kiriTensor_Solve(m, rest);
+            region->bent = (kiriTensor){ t.uu + more.uu, t.uv + more.uv, t.vv + more.vv };
+            region->reach /= region->weight;
+        }
+    }
 }
 
 #define LEAST_LIMIT 0.2 /* of the whole */
@@ -217,15 +226,9 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
     linkCount = kiriLink_CountBorders(links, linkCount);
     KIRI_TIMES(k, linkCount) {
-        kiriVec2 curvature = CurvatureOf(&yields[k].elastic, &links[k]);
-        AddLink(&regions[links[k].i], &links[k], curvature, 0.0);
-        AddLink(&regions[links[k].j], &links[k], curvature, 0.0);
+        AddLink(regions, &links[k], &yields[k].elastic, 0.0);
     }
-    KIRI_TIMES(f, frameCount) {
-        if (regions[f].weight > 0.0) {
-            SolveRegion(&regions[f]);
-        }
-    }
+    SolveRegions(regions, frameCount);
     KIRI_TIMES(k, linkCount) {
         const kiriTensor *a = &regions[links[k].i].bent, *b = &regions[links[k].j].bent;
         double mean = 0.25 * (a->uu + a->vv + b->uu + b->vv), half = 0.25 * (a->uu - a->vv + b->uu - b->vv);
@@ -241,15 +244,6 @@ bool kiriPlastics_Reserve(kiriPlastics* plastics, kiriMemory* memory, int32_t li
            kiriArray_Reserve(memory, &plastics->regions, frameCount);
 }
 
-void kiriPlastics_Start(kiriPlastics* plastics, int32_t linkCount)
-{
-    if (plastics->isKept && plastics->links.count == 0 && linkCount > 0) {
-        KIRI_ASSERT(linkCount <= plastics->links.capacity);
-        memset(plastics->links.data, 0, sizeof(kiriPlastic) * (size_t)linkCount);
-        plastics->links.count = linkCount;
-    }
-}
-
 void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_t linkCount, int32_t oldCount,
                            int32_t frameCount, const kiriOwnership* ownership, double extent)
 {
@@ -259,15 +253,9 @@ void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_
     plastics->regions.count = frameCount;
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
     for (int32_t k = 0, end = kiriLink_CountBorders(links, plastics->links.count); k < end; ++k) {
-        kiriVec2 curvature = CurvatureOf(&plastics->links.data[k].part, &links[k]);
-        AddLink(&regions[links[k].i], &links[k], curvature, plastics->links.data[k].reach);
-        AddLink(&regions[links[k].j], &links[k], curvature, plastics->links.data[k].reach);
+        AddLink(regions, &links[k], &plastics->links.data[k].part, plastics->links.data[k].reach);
     }
-    KIRI_TIMES(f, oldCount) {
-        if (regions[f].weight > 0.0) {
-            SolveRegion(&regions[f]);
-        }
-    }
+    SolveRegions(regions, oldCount);
     for (int32_t f = oldCount; f < frameCount && f < ownership->first.count; ++f) {
         double whole = 0.0;
         for (int32_t n = ownership->first.data[f]; n != KIRI_NONE; n = ownership->transfers.data[n].next) {

@@ -104,9 +104,6 @@ typedef struct kiriPlastics {
 /* Reserves room. Fails on out of memory. */
 bool kiriPlastics_Reserve(kiriPlastics* plastics, kiriMemory* memory, int32_t linkCount, int32_t frameCount);
 
-/* Makes states of links that never yielded, if states are kept and there are none. Cannot fail. */
-void kiriPlastics_Start(kiriPlastics* plastics, int32_t linkCount);
-
 /* Fits regions to the links before a commit. Frames from oldCount on are new: they get the mean of the regions from which
    their material comes. Cannot fail. */
 void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_t linkCount, int32_t oldCount,

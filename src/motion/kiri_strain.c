@@ -700,15 +700,6 @@ bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* mem
            kiriArrays_Reserve(memory, frameCount, &strainOffsets->frames, &strainOffsets->mayMove);
 }
 
-void kiriStrainOffsets_Start(kiriStrainOffsets* strainOffsets, int32_t linkCount)
-{
-    if (strainOffsets->strainOffsets.count == 0 && linkCount > 0) {
-        KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity);
-        memset(strainOffsets->strainOffsets.data, 0, sizeof(kiriStrainOffset) * (size_t)linkCount);
-        strainOffsets->strainOffsets.count = linkCount;
-    }
-}
-
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount,
                                 const uint8_t* mayMove)
 {

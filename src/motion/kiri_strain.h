@@ -191,9 +191,6 @@ typedef struct kiriStrainOffsets {
 bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
                                int32_t frameCount);
 
-/* Makes offsets of zero for this number of links, if there are none. Cannot fail. */
-void kiriStrainOffsets_Start(kiriStrainOffsets* strainOffsets, int32_t linkCount);
-
 /* Stores frames before the commit. mayMove[f]: the commit may change the position of frame f, or its center. */
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount,
                                 const uint8_t* mayMove);
