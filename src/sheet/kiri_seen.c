@@ -736,8 +736,7 @@ void kiriView_EndRelaxing(kiriSheetData* sheet)
 
 void kiriView_KeepBounds(kiriSheetData* sheet)
 {
-    bool isKnown = sheet->seen.surface.isPartly;
-    const kiriMovers movers = { isKnown ? sheet->seen.blocks.movers.data : NULL, KIRI_BLOCK, sheet->seen.lists };
+    const kiriMovers movers = { sheet->seen.blocks.movers.data, KIRI_BLOCK, sheet->seen.lists };
     kiriBounds_Keep(sheet->seen.bounds, &sheet->seen.surface, &movers);
 }
 

@@ -390,11 +390,10 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
-/* Reserves for the vertices of a save, which come next. A tick writes all blocks again. */
+/* Reserves for the vertices of a save, which come next. */
 static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    kiriBlocks* blocks = &sheet->seen.blocks;
     const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, sheet->frames.count,
                                     sheet->points.count };
     KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive));
@@ -408,7 +407,6 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
                            kiriSurface_AreChangesSound(surface));
     if (!kiriArchive_HasFailed(archive)) {
         kiriView_Resize(sheet, counts.frames);
-        kiriArray_Set(&blocks->touched, 1);
     }
 }
 

@@ -257,13 +257,11 @@ void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface, const kiriM
     if (bounds->patience == 0 || kiriBounds_IsFresh(bounds, surface)) {
         return;
     }
-    bool othersFit = movers->data != NULL && surface->isPartly && bounds->pose + 1 == surface->pose &&
-                     bounds->levelCount > 0 && bounds->order.count == surface->triangleCount &&
-                     !NeedsSorting(bounds, surface->triangleCount) && bounds->moves.capacity >= bounds->nodes.count;
-    if (!othersFit) {
+    if (!surface->isPartly || bounds->pose + 1 != surface->pose || bounds->levelCount == 0) { /* others moved, too */
         MakeTree(bounds, surface);
         return;
     }
+    KIRI_ASSERT(bounds->order.count == surface->triangleCount && !NeedsSorting(bounds, surface->triangleCount));
     if (bounds->moves.count == 0 || bounds->version != movers->version) {
         MarkMoving(bounds, surface, movers);
     }
@@ -336,10 +334,8 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found)
 {
-    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, meets, context, memory, found };
     int32_t before = found->count;
-    bool ok = WalkTree(&(BoxWalk){ bounds, NULL, meets, context, PushTriangles, &search });
+    bool ok = kiriBounds_FindMoving(bounds, surface, meets, context, 0, memory, found);
     if (ok && found->count > before) {
         kiriSort(found->data + before, found->count - before, NULL, NULL);
     }
@@ -563,7 +559,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     RaySearch search = { surface, { origin, direction, maxDistance, 0.0 }, KIRI_NONE, { 0.0, 0.0, 0.0 } };
     KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
-    if (bounds != NULL && kiriBounds_IsFresh(bounds, surface)) {
+    if (kiriBounds_IsFresh(bounds, surface)) {
         if (bounds->nodes.count > 0) {
             kiriBox all = kiriBounds_All(bounds);
             kiriVec3 most = kiriVec3_Most(kiriVec3_Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),

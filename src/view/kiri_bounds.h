@@ -40,7 +40,7 @@ typedef struct kiriBounds {
 
 /* Vertices that are awake. */
 typedef struct kiriMovers {
-    const int32_t* data; /* of each block of vertices: KIRI_NONE if all sleep. Null: not known */
+    const int32_t* data; /* of each block of vertices: KIRI_NONE if all sleep. Unused if the surface is not partly written */
     int32_t block;       /* vertices in a block */
     int64_t version;     /* 1 or more; changes whenever the data changes */
 } kiriMovers;
@@ -65,7 +65,6 @@ double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
 
 /* Gets the corners of a triangle in world space. */
 void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3]);
-
 
 /* Returns true if the boxes fit the surface. All searches below need that. */
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);
@@ -118,7 +117,7 @@ bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface,
 
 /* Finds the first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector; of two at the
    same distance the higher index. hit->triangle is KIRI_NONE if there is none. Tests all triangles if the bounds do not
-   fit the surface or are null, with the same result. */
+   fit the surface, with the same result. */
 void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction,
                          double maxDistance, kiriHit* hit);
 

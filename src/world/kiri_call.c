@@ -687,7 +687,6 @@ bool kiriCall_Begin(kiriCall* call)
     }
     if (world->recorder.write != NULL) {
         kiriRecord_Begin(call);
-        call->isRecorded = true;
     }
     return true;
 }
@@ -713,7 +712,7 @@ kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* func
     if (result < 0) {
         Log(world, call != NULL ? call->world->errorLine : line, result, call != NULL ? call->function : function, why);
     }
-    if (call != NULL && call->isRecorded) {
+    if (call != NULL && world->recorder.isOpen) {
         kiriRecord_End(call, result);
     }
     if (call != NULL) {

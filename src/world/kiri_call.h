@@ -206,7 +206,6 @@ typedef struct kiriCall {
     const char* function; /* for the error line */
     const char* names;    /* of the arguments, as in "&sheet, velocity" */
     const void* const* arguments;
-    bool isRecorded;
     int32_t index;        /* index in `sheet` of the frame or pin that the first argument names */
     void* owner;          /* object that the first argument names; for a frame or pin: its sheet */
     kiriSheetData* sheet; /* `owner`, if it is a sheet */
@@ -226,7 +225,7 @@ kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* func
 kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 
 #define KIRI_BEGIN(number, function, names, arguments)                                                                 \
-    kiriCall thisCall = { world, number, function, names, arguments, false, 0, NULL, NULL, KIRI_OK };                  \
+    kiriCall thisCall = { world, number, function, names, arguments, 0, NULL, NULL, KIRI_OK };                         \
     kiriCall* const call = &thisCall;                                                                                  \
     if (!kiriCall_Begin(call)) {                                                                                       \
         return call->result;                                                                                           \

@@ -18,7 +18,6 @@ typedef struct Batch {
 } Batch;
 
 typedef struct Drawing {
-    const kiriWorld* world;
     void* user;
     uint32_t flags; /* KIRI_DRAW_... */
     double size;    /* m, of axes and normals */
@@ -295,16 +294,10 @@ static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
 void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only)
 {
     KIRI_ASSERT(draw->size > 0.0f && (draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0);
-    Drawing drawing;
-    drawing.world = world;
-    drawing.user = draw->user;
-    drawing.flags = draw->flags;
-    drawing.size = draw->size;
-    kiriDrawFn* const functions[3] = { draw->points, draw->lines, draw->triangles };
-    KIRI_TIMES(i, 3) {
-        drawing.batches[i].draw = functions[i];
-        drawing.batches[i].count = 0;
-    }
+    Drawing drawing = { draw->user,
+                        draw->flags,
+                        draw->size,
+                        { { .draw = draw->points }, { .draw = draw->lines }, { .draw = draw->triangles } } };
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         if (only == NULL || only == sheet) {
             DrawSheet(&drawing, sheet);
