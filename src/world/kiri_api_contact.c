@@ -3,7 +3,6 @@
 #include "../sheet/kiri_meeting.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
-#include "kiri_blade.h"
 #include "kiri_seam.h"
 
 void kiriDefaultObstacleDef(kiriObstacleDef* def)
@@ -439,43 +438,6 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
 
 /* ---- Seams ------------------------------------------------------------------------------------------------------- */
 
-void kiriDefaultSeamDef(kiriSeamDef* def)
-{
-    if (def != NULL) {
-        KIRI_CLEAR(def);
-        def->cookie = KIRI_COOKIE(kiriSeamDef);
-    }
-}
-
-kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam)
-{
-    KIRI_CHANGES(CreateSeam, def, seam);
-    kiriSeamData* made;
-    const char* why;
-    kiriResult result = kiriSeams_Create(world, def, &made, &why);
-    *seam = result == KIRI_OK ? made->id : 0;
-    return KIRI_FAIL(result, why);
-}
-
-kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle)
-{
-    KIRI_CHANGES(Seam_SetHinge, &seam, &stiffness, &restAngle);
-    kiriSeamData* data = call->owner;
-    if (data->bending != stiffness || data->restAngle != restAngle) {
-        data->bending = stiffness;
-        data->restAngle = restAngle;
-        kiriSeams_Wake(world, data);
-    }
-    KIRI_RETURN(KIRI_OK);
-}
-
-kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam)
-{
-    KIRI_CHANGES(DestroySeam, &seam);
-    kiriSeams_Remove(world, call->owner);
-    KIRI_RETURN(KIRI_OK);
-}
-
 kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch)
 {
     KIRI_READS(world);
@@ -511,35 +473,4 @@ kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t c
     KIRI_READS(world);
     KIRI_CHECK_LIST(seams);
     KIRI_RETURN_IDS(seams, world->seams, world->seams.data[i]);
-}
-
-kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)
-{
-    KIRI_CHANGES(BeginBlade, &sheet, blade);
-    kiriBladeData* made;
-    kiriResult result = kiriWorld_AddBlade(world, sheet, &made);
-    if (result == KIRI_OK) {
-        *blade = made->id;
-    }
-    KIRI_RETURN(result);
-}
-
-kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3])
-{
-    KIRI_CHANGES(Blade_MoveEdge, &blade, from, to);
-    KIRI_RETURN(kiriWorld_MoveBlade(world, call->owner, kiriVec3_Load(from), kiriVec3_Load(to)));
-}
-
-kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3],
-                             float length)
-{
-    KIRI_CHANGES(Blade_MoveRay, &blade, origin, direction, &length);
-    kiriVec3 from = kiriVec3_Load(origin), unit = kiriVec3_Normalize(kiriVec3_Load(direction));
-    KIRI_RETURN(kiriWorld_MoveBlade(world, call->owner, from, kiriVec3_AddScaled(from, length, unit)));
-}
-
-kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade)
-{
-    KIRI_CHANGES(Blade_End, &blade);
-    KIRI_RETURN(kiriWorld_RemoveBlade(world, call->owner));
 }

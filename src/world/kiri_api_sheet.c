@@ -1,7 +1,6 @@
 #include "kiri_call.h"
 #include "../sheet/kiri_sheet.h"
 #include "../view/kiri_section.h"
-#include "kiri_part.h"
 #include "kiri_seam.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_motion.h"
@@ -257,43 +256,6 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     KIRI_READS_OF(frame, piece);
     *piece = found->layout.framePiece.data[slot->index];
     return KIRI_OK;
-}
-
-static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count, kiriSheet* detached)
-{
-    kiriResult result = kiriParts_TakeOut(call->world, frames, count, detached);
-    return kiriCall_End(call->world, call, call->function, result,
-                        result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL);
-}
-
-kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
-{
-    KIRI_CHANGES(Frame_DetachPiece, &frame, detached);
-    return TakeOut(call, &frame, 1, detached);
-}
-
-kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
-{
-    KIRI_CHANGES(Frame_DestroyPiece, &frame);
-    return TakeOut(call, &frame, 1, NULL);
-}
-
-kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
-{
-    KIRI_CHANGES(World_DetachPieces, frames, &count, detached);
-    return TakeOut(call, frames, count, detached);
-}
-
-kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
-{
-    KIRI_CHANGES(World_DestroyPieces, frames, &count);
-    return TakeOut(call, frames, count, NULL);
-}
-
-kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
-{
-    KIRI_CHANGES(Sheet_DropCrumbs, &sheet, &area, count);
-    KIRI_RETURN(kiriParts_DropCrumbs(world, call->sheet, area, count));
 }
 
 kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,

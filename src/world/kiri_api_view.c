@@ -6,7 +6,6 @@
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_bounds.h"
 #include "../view/kiri_surface.h"
-#include "kiri_draw.h"
 
 #include <float.h>
 
@@ -276,30 +275,4 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     kiriMemory_FreeAll(&scratch);
     kiriCall_EndCallbacks(world);
     return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
-}
-
-void kiriDefaultDebugDraw(kiriDebugDraw* draw)
-{
-    if (draw != NULL) {
-        KIRI_CLEAR(draw);
-        draw->cookie = KIRI_COOKIE(kiriDebugDraw);
-        draw->flags = KIRI_DRAW_ALL & ~(KIRI_DRAW_TRIANGLES | KIRI_DRAW_EDGES);
-        draw->size = 0.05f;
-    }
-}
-
-kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw)
-{
-    KIRI_READS(world);
-    KIRI_CHECK_OUT(draw);
-    KIRI_REQUIRE(draw->cookie == KIRI_COOKIE(kiriDebugDraw), KIRI_ERROR_DEF,
-                 "draw was not filled by kiriDefaultDebugDraw");
-    KIRI_CHECK((draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0, "flags has more than those of KIRI_DRAW");
-    KIRI_CHECK(draw->size > 0.0f && draw->size <= FLT_MAX, "size is not finite, or not above 0");
-    const kiriSlot* only = kiriPool_Find(&world->sheetIds, draw->sheet);
-    KIRI_REQUIRE(only != NULL || draw->sheet == 0, KIRI_ERROR_ID, "there is no sheet with this id");
-    kiriCall_BeginCallbacks(world);
-    kiriDraw_World(world, draw, only != NULL ? only->owner : NULL);
-    kiriCall_EndCallbacks(world);
-    return KIRI_OK;
 }

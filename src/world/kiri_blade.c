@@ -1,4 +1,5 @@
 #include "kiri_blade.h"
+#include "kiri_call.h"
 #include "../mesh/kiri_lip.h"
 #include "../sheet/kiri_seen.h"
 
@@ -706,20 +707,19 @@ static bool StepThroughSheet(BladeWork* work)
 
 /* ---- Blades ---- */
 
-kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData** made)
+kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)
 {
+    KIRI_CHANGES(BeginBlade, &sheet, blade);
     kiriResult result = kiriArray_ReserveMore(&world->memory, &world->blades, 1)
                             ? kiriWorld_ReserveIds(world, &world->bladeIds, 1)
                             : KIRI_ERROR_MEMORY;
-    kiriBladeData* blade = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*blade)) : NULL;
-    if (blade == NULL) {
-        return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
-    }
-    blade->sheet = sheet;
-    blade->id = kiriPool_Add(&world->bladeIds, blade, 0);
-    KIRI_NEXT(world->blades) = blade;
-    *made = blade;
-    return KIRI_OK;
+    kiriBladeData* made = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*made)) : NULL;
+    KIRI_REQUIRE(made != NULL, result != KIRI_OK ? result : KIRI_ERROR_MEMORY, NULL);
+    made->sheet = sheet;
+    made->id = kiriPool_Add(&world->bladeIds, made, 0);
+    KIRI_NEXT(world->blades) = made;
+    *blade = made->id;
+    KIRI_RETURN(KIRI_OK);
 }
 
 static kiriCutData* CutOf(const kiriWorld* world, const kiriLayer* layer)
@@ -745,21 +745,21 @@ static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
     }
 }
 
-kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
+kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade)
 {
-    KIRI_EACH_INDEX(i, blade->layers) {
-        const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
-        if (cut != NULL &&
-            !kiriArray_ReserveMore(&world->memory, &cut->sheet->queue, 3 * (int64_t)blade->layers.count)) {
-            return KIRI_ERROR_MEMORY;
-        }
+    KIRI_CHANGES(Blade_End, &blade);
+    kiriBladeData* data = call->owner;
+    KIRI_EACH(const kiriLayer, layer, data->layers) {
+        const kiriCutData* cut = CutOf(world, layer);
+        KIRI_REQUIRE(cut == NULL || kiriArray_ReserveMore(&world->memory, &cut->sheet->queue, 3 * data->layers.count),
+                     KIRI_ERROR_MEMORY, NULL);
     }
-    EndCuts(world, blade);
-    KIRI_KEEP_IF(kiriBladeData*, at, world->blades, *at != blade);
-    kiriPool_Remove(&world->bladeIds, blade->id);
-    kiriArray_Release(&world->memory, &blade->layers);
-    kiriMemory_Free(&world->memory, blade);
-    return KIRI_OK;
+    EndCuts(world, data);
+    KIRI_KEEP_IF(kiriBladeData*, at, world->blades, *at != data);
+    kiriPool_Remove(&world->bladeIds, blade);
+    kiriArray_Release(&world->memory, &data->layers);
+    kiriMemory_Free(&world->memory, data);
+    KIRI_RETURN(KIRI_OK);
 }
 
 void kiriWorld_AdvanceBlades(kiriWorld* world)
@@ -923,7 +923,8 @@ static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
     return KIRI_OK;
 }
 
-kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 from, kiriVec3 to)
+/* Moves each end of the edge along a straight line, and queues the cuts. Changes nothing on failure. */
+static kiriResult MoveEdge(kiriWorld* world, kiriBladeData* blade, kiriVec3 from, kiriVec3 to)
 {
     const kiriVec3 edge[2] = { from, to };
     BladeWork work;
@@ -941,4 +942,18 @@ kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 
         blade->ticks = 0;
     }
     return result;
+}
+
+kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3])
+{
+    KIRI_CHANGES(Blade_MoveEdge, &blade, from, to);
+    KIRI_RETURN(MoveEdge(world, call->owner, kiriVec3_Load(from), kiriVec3_Load(to)));
+}
+
+kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3],
+                             float length)
+{
+    KIRI_CHANGES(Blade_MoveRay, &blade, origin, direction, &length);
+    kiriVec3 from = kiriVec3_Load(origin), unit = kiriVec3_Normalize(kiriVec3_Load(direction));
+    KIRI_RETURN(MoveEdge(world, call->owner, from, kiriVec3_AddScaled(from, length, unit)));
 }

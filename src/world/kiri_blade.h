@@ -39,16 +39,6 @@ typedef struct kiriBladeData {
     KIRI_ARRAY(kiriLayer) layers;
 } kiriBladeData;
 
-/* These three change nothing where they return an error: KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
-
-kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData** made);
-
-/* Ends its cuts. */
-kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade);
-
-/* Moves each end of the edge along a straight line, and queues the cuts. */
-kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 from, kiriVec3 to);
-
 /* Counts a tick. */
 void kiriWorld_AdvanceBlades(kiriWorld* world);
 

@@ -1,5 +1,4 @@
 #include "kiri_call.h"
-#include "kiri_seam.h"
 #include "../mesh/kiri_mesh.h"
 #include "../sheet/kiri_obstacle.h"
 

@@ -1,4 +1,5 @@
-#include "kiri_draw.h"
+/* Debug draw: points, lines and triangles of the inside of a world, handed to the host in batches. Allocates nothing. */
+#include "kiri_call.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_obstacle.h"
@@ -291,15 +292,33 @@ static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
     }
 }
 
-void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only)
+void kiriDefaultDebugDraw(kiriDebugDraw* draw)
 {
-    KIRI_ASSERT(draw->size > 0.0f && (draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0);
+    if (draw != NULL) {
+        KIRI_CLEAR(draw);
+        draw->cookie = KIRI_COOKIE(kiriDebugDraw);
+        draw->flags = KIRI_DRAW_ALL & ~(KIRI_DRAW_TRIANGLES | KIRI_DRAW_EDGES);
+        draw->size = 0.05f;
+    }
+}
+
+kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw)
+{
+    KIRI_READS(world);
+    KIRI_CHECK_OUT(draw);
+    KIRI_REQUIRE(draw->cookie == KIRI_COOKIE(kiriDebugDraw), KIRI_ERROR_DEF,
+                 "draw was not filled by kiriDefaultDebugDraw");
+    KIRI_CHECK((draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0, "flags has more than those of KIRI_DRAW");
+    KIRI_CHECK(draw->size > 0.0f && draw->size <= FLT_MAX, "size is not finite, or not above 0");
+    const kiriSlot* only = kiriPool_Find(&world->sheetIds, draw->sheet);
+    KIRI_REQUIRE(only != NULL || draw->sheet == 0, KIRI_ERROR_ID, "there is no sheet with this id");
+    kiriCall_BeginCallbacks(world);
     Drawing drawing = { draw->user,
                         draw->flags,
                         draw->size,
                         { { .draw = draw->points }, { .draw = draw->lines }, { .draw = draw->triangles } } };
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
-        if (only == NULL || only == sheet) {
+        if (only == NULL || only->owner == sheet) {
             DrawSheet(&drawing, sheet);
         }
     }
@@ -318,4 +337,6 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
     KIRI_TIMES(i, 3) {
         FlushBatch(&drawing, &drawing.batches[i]);
     }
+    kiriCall_EndCallbacks(world);
+    return KIRI_OK;
 }

@@ -1,4 +1,5 @@
 #include "kiri_part.h"
+#include "kiri_call.h"
 #include "kiri_seam.h"
 #include "../sheet/kiri_detach.h"
 #include "../sheet/kiri_piece.h"
@@ -466,8 +467,12 @@ static kiriResult Destroy(Parting* parting)
     return result;
 }
 
-kiriResult kiriParts_TakeOut(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids)
+/* Detaches the pieces of these frames in one pass for each sheet; if ids is null, removes them. KIRI_PENDING: some are
+   pending. ids[i] becomes the sheet of frames[i], or 0 while pending. KIRI_ERROR_STATE: a sheet would lose all of its
+   pieces. On failure, also for memory or ids, nothing has changed. */
+static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count, kiriSheet* ids)
 {
+    kiriWorld* world = call->world;
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
     if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
@@ -478,7 +483,32 @@ kiriResult kiriParts_TakeOut(kiriWorld* world, const kiriFrame* frames, int32_t 
         ids[i] = FindSource(&parting, sheet) != NULL ? 0 : sheet->id; /* else the frame would have left it */
     }
     EndParting(&parting);
-    return result;
+    return kiriCall_End(world, call, call->function, result,
+                        result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL);
+}
+
+kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
+{
+    KIRI_CHANGES(Frame_DetachPiece, &frame, detached);
+    return TakeOut(call, &frame, 1, detached);
+}
+
+kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
+{
+    KIRI_CHANGES(Frame_DestroyPiece, &frame);
+    return TakeOut(call, &frame, 1, NULL);
+}
+
+kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
+{
+    KIRI_CHANGES(World_DetachPieces, frames, &count, detached);
+    return TakeOut(call, frames, count, detached);
+}
+
+kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
+{
+    KIRI_CHANGES(World_DestroyPieces, frames, &count);
+    return TakeOut(call, frames, count, NULL);
 }
 
 /* ---- Crumbs ------------------------------------------------------------------------------------------------------ */
@@ -511,10 +541,11 @@ static int32_t MarkBelow(const kiriWorld* world, kiriSubset* rest, double area)
     return dropped;
 }
 
-kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
+kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
 {
+    KIRI_CHANGES(Sheet_DropCrumbs, &sheet, &area, count);
     Parting parting;
-    PartSource* source = StartParting(&parting, world, 1) ? AddSource(&parting, sheet) : NULL;
+    PartSource* source = StartParting(&parting, world, 1) ? AddSource(&parting, call->sheet) : NULL;
     kiriResult result = source != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
     *count = 0;
     if (result == KIRI_OK) {
@@ -523,5 +554,5 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
         *count = result >= 0 ? dropped : 0;
     }
     EndParting(&parting);
-    return result;
+    KIRI_RETURN(result);
 }

@@ -7,14 +7,6 @@
 
 KIRI_C_BEGIN
 
-/* Detaches the pieces of these frames, whose ids are valid, in one pass for each sheet; if ids is null, removes them.
-   KIRI_PENDING: some are pending. ids[i] becomes the sheet of frames[i], or 0 while pending. KIRI_ERROR_STATE: a sheet
-   would lose all of its pieces. On failure, also for memory or ids, nothing has changed. */
-kiriResult kiriParts_TakeOut(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids);
-
-/* Removes all pieces below an area (m^2) except the largest. The same results. */
-kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
-
 /* Returns true if pieces wait and no cut is worked on in the sheet. No such work begins before they have left. */
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 

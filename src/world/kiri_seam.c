@@ -1,4 +1,5 @@
 #include "kiri_seam.h"
+#include "kiri_call.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_touch.h"
 
@@ -290,61 +291,83 @@ static void FreeSeam(kiriWorld* world, kiriSeamData* seam)
     kiriMemory_Free(&world->memory, seam);
 }
 
-kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamData** made, const char** why)
-{
-    kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
-                                 kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
-    double length = kiriMin(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
-    double spacing = kiriMin(FrameSpacing(sheets[0]), FrameSpacing(sheets[1]));
-    *why = !(length > 0.0) ? "def.lineA or def.lineB has no length"
-           : sheets[0]->settings.mechanics.planar || sheets[1]->settings.mechanics.planar
-               ? "def names a planar sheet: it cannot be sewn"
-           : sheets[0]->settings.mechanics.model != sheets[1]->settings.mechanics.model
-               ? "def names sheets of different models"
-               : NULL;
-    if (*why != NULL) {
-        return KIRI_ERROR_ARGUMENT;
-    }
-    double wanted = kiriMin(1.5 + PER_SPACING * length / spacing, MOST_STITCHES);
-    int32_t count = kiriMax(def->stitches > 0 ? def->stitches : (int32_t)wanted, 2);
-    kiriResult result = kiriArray_ReserveMore(&world->memory, &world->seams, 1)
-                            ? kiriWorld_ReserveIds(world, &world->seamIds, 1)
-                            : KIRI_ERROR_MEMORY;
-    kiriSeamData* seam = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*seam)) : NULL;
-    if (seam == NULL) {
-        return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
-    }
-    bool hasRoom = kiriArray_ResizeJust(&world->memory, &seam->stitches, count) &&
-                   kiriArray_ReserveJust(&world->memory, &seam->rows, count);
-    *why = hasRoom ? PlaceStitches(def, sheets, seam) : NULL;
-    if (!hasRoom || *why != NULL) {
-        FreeSeam(world, seam);
-        return hasRoom ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_MEMORY;
-    }
-    seam->breakForce = def->breakForce;
-    seam->bending = def->stiffness;
-    seam->restAngle = def->restAngle;
-    seam->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
-    seam->id = kiriPool_Add(&world->seamIds, seam, 0);
-    KIRI_NEXT(world->seams) = seam;
-    kiriSeams_Wake(world, seam);
-    *made = seam;
-    return KIRI_OK;
-}
-
-void kiriSeams_Wake(const kiriWorld* world, const kiriSeamData* seam)
+static void WakeSeam(const kiriWorld* world, const kiriSeamData* seam)
 {
     KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
         WakeEnds(world, stitch);
     }
 }
 
-void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
+void kiriDefaultSeamDef(kiriSeamDef* def)
 {
-    kiriSeams_Wake(world, seam);
+    if (def != NULL) {
+        KIRI_CLEAR(def);
+        def->cookie = KIRI_COOKIE(kiriSeamDef);
+    }
+}
+
+kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam)
+{
+    KIRI_CHANGES(CreateSeam, def, seam);
+    kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
+                                 kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
+    double length = kiriMin(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
+    double spacing = kiriMin(FrameSpacing(sheets[0]), FrameSpacing(sheets[1]));
+    KIRI_CHECK(length > 0.0, "def.lineA or def.lineB has no length");
+    KIRI_CHECK(!sheets[0]->settings.mechanics.planar && !sheets[1]->settings.mechanics.planar,
+               "def names a planar sheet: it cannot be sewn");
+    KIRI_CHECK(sheets[0]->settings.mechanics.model == sheets[1]->settings.mechanics.model,
+               "def names sheets of different models");
+    double wanted = kiriMin(1.5 + PER_SPACING * length / spacing, MOST_STITCHES);
+    int32_t count = kiriMax(def->stitches > 0 ? def->stitches : (int32_t)wanted, 2);
+    kiriResult result = kiriArray_ReserveMore(&world->memory, &world->seams, 1)
+                            ? kiriWorld_ReserveIds(world, &world->seamIds, 1)
+                            : KIRI_ERROR_MEMORY;
+    kiriSeamData* made = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*made)) : NULL;
+    KIRI_REQUIRE(made != NULL, result != KIRI_OK ? result : KIRI_ERROR_MEMORY, NULL);
+    bool hasRoom = kiriArray_ResizeJust(&world->memory, &made->stitches, count) &&
+                   kiriArray_ReserveJust(&world->memory, &made->rows, count);
+    const char* why = hasRoom ? PlaceStitches(def, sheets, made) : NULL;
+    if (!hasRoom || why != NULL) {
+        FreeSeam(world, made);
+        return KIRI_FAIL(hasRoom ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_MEMORY, why);
+    }
+    made->breakForce = def->breakForce;
+    made->bending = def->stiffness;
+    made->restAngle = def->restAngle;
+    made->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
+    made->id = kiriPool_Add(&world->seamIds, made, 0);
+    KIRI_NEXT(world->seams) = made;
+    WakeSeam(world, made);
+    *seam = made->id;
+    KIRI_RETURN(KIRI_OK);
+}
+
+kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle)
+{
+    KIRI_CHANGES(Seam_SetHinge, &seam, &stiffness, &restAngle);
+    kiriSeamData* data = call->owner;
+    if (data->bending != stiffness || data->restAngle != restAngle) {
+        data->bending = stiffness;
+        data->restAngle = restAngle;
+        WakeSeam(world, data);
+    }
+    KIRI_RETURN(KIRI_OK);
+}
+
+static void RemoveSeam(kiriWorld* world, kiriSeamData* seam)
+{
+    WakeSeam(world, seam);
     KIRI_KEEP_IF(kiriSeamData*, item, world->seams, *item != seam);
     kiriPool_Remove(&world->seamIds, seam->id);
     FreeSeam(world, seam);
+}
+
+kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam)
+{
+    KIRI_CHANGES(DestroySeam, &seam);
+    RemoveSeam(world, call->owner);
+    KIRI_RETURN(KIRI_OK);
 }
 
 /* Returns the force on a stretch of a seam for its length, N/m: of a stitch and those beside it. Stitches pull against each
@@ -392,7 +415,7 @@ void kiriSeams_DropStale(kiriWorld* world)
     KIRI_EACH_INDEX_BACK(i, world->seams) {
         kiriSeamData* seam = world->seams.data[i];
         if (DropStitches(world, seam, HUGE_VAL) > 0 && seam->stitches.count == 0) {
-            kiriSeams_Remove(world, seam);
+            RemoveSeam(world, seam);
         }
     }
 }
@@ -544,7 +567,7 @@ void kiriSeams_End(kiriWorld* world, double dt)
             event->seam = seam->id;
             event->stitches = seam->stitches.count;
             if (seam->stitches.count == 0) {
-                kiriSeams_Remove(world, seam);
+                RemoveSeam(world, seam);
             }
         }
     }

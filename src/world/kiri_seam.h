@@ -8,10 +8,6 @@
 
 KIRI_C_BEGIN
 
-/* Makes a seam from a checked def. Changes nothing on failure; then *why is the reason, or null. */
-kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamData** made, const char** why);
-void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam);
-
 /* Returns the sheet of one end of a stitch, or null if its piece is destroyed. */
 kiriSheetData* kiriStitch_Sheet(const kiriWorld* world, const kiriStitchData* stitch, int end);
 
@@ -29,9 +25,6 @@ bool kiriSeams_ListLines(kiriWorld* world);
 
 /* Returns the angle of the seam at a stitch, rad. */
 double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch);
-
-/* Wakes the pieces of a seam that changes. */
-void kiriSeams_Wake(const kiriWorld* world, const kiriSeamData* seam);
 
 /* Stirs sleeping pieces that are sewn to moving ones. Returns true if there are any. */
 bool kiriSeams_Stir(const kiriWorld* world);
