@@ -477,8 +477,7 @@ static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
     WAY("finds nothing", s->frames.data[1].id ^= 1u << 20)
     WAY("index 0 of 1", kiriPool_Find(&world->frameIds, s->frames.data[1].id)->index = 0)
     WAY("finds something", kiriPool_Find(&world->pinIds, s->pins.data[0].id)->owner = world)
-    WAY("ids of kind",
-        (void)(kiriPool_Reserve(&world->frameIds, &world->memory, 1) && kiriPool_Add(&world->frameIds, s, 0)))
+    WAY("ids of kind", kiriPool_Reserve(&world->frameIds, &world->memory, 1); kiriPool_Add(&world->frameIds, s, 0))
     WAY("finds nothing", kiriPool_Remove(&world->cutIds, s->cuts.data[0]->id))
     WAY("is free", world->sheetIds.freeSlot = 0)
     return NULL;

@@ -187,19 +187,6 @@ static const int64_t lowRange = (int64_t)1 << 62;
 static const double highUnits = 1152921504606846976.0; /* 2^60 */
 static const double lowUnits = 4611686018427387904.0;  /* 2^62 */
 
-/* Converts the double to whole numbers, which rounds in the same way when it is added and when it is subtracted. */
-static void AddShare(kiriExact* sum, double share, int sign)
-{
-    double scaled = share * highUnits;
-    int64_t high = (int64_t)scaled;
-    int64_t low = (int64_t)((scaled - (double)high) * lowUnits);
-    sum->low += sign * low;
-    /* -1, 0 or 1: at random, so without a branch. */
-    int64_t carry = (int64_t)(((uint64_t)sum->low + (uint64_t)lowRange) >> 62) - 1;
-    sum->high += sign * high + carry;
-    sum->low -= carry * lowRange;
-}
-
 static double ToShare(kiriExact sum)
 {
     return ((double)sum.high + (double)sum.low / lowUnits) / highUnits;
@@ -211,8 +198,16 @@ void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, doubl
     double one = 1.0 / extent, two = one * one, three = two * one, four = two * two;
     const double shares[6] = { two * moments->area, three * moments->u, three * moments->v,
                                four * moments->uu,  four * moments->uv, four * moments->vv };
-    KIRI_TIMES(k, 6) {
-        AddShare(&tally->of[k], shares[k], sign);
+    KIRI_TIMES(k, 6) { /* whole numbers are rounded in the same way when they are added and when they are subtracted */
+        kiriExact* sum = &tally->of[k];
+        double scaled = shares[k] * highUnits;
+        int64_t high = (int64_t)scaled;
+        int64_t low = (int64_t)((scaled - (double)high) * lowUnits);
+        sum->low += sign * low;
+        /* -1, 0 or 1: at random, so without a branch. */
+        int64_t carry = (int64_t)(((uint64_t)sum->low + (uint64_t)lowRange) >> 62) - 1;
+        sum->high += sign * high + carry;
+        sum->low -= carry * lowRange;
     }
 }
 
