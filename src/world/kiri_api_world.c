@@ -199,7 +199,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
         return KIRI_ERROR_DEF;
     }
     kiriFault fault = { "" };
-    if (kiriStruct_Check(&kiriWorldDefStruct, "def", NULL, def, &fault) != KIRI_OK) {
+    if (kiriStruct_Check(kiriWorldDefStruct(), "def", NULL, def, &fault) != KIRI_OK) {
         return RefuseWorld(def, KIRI_ERROR_ARGUMENT, fault.line);
     }
     if ((def->alloc == NULL) != (def->free == NULL) || (def->startTask == NULL) != (def->finishTask == NULL)) {
@@ -368,7 +368,7 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 {
     kiriFault fault;
     if (profile == NULL || budget == NULL || !(microseconds > 0.0f && microseconds <= FLT_MAX) ||
-        kiriStruct_Check(kiriArguments[KIRI_ARGUMENT_BUDGET].of, "", NULL, budget, &fault) != KIRI_OK) {
+        kiriStruct_Check(kiriArguments[KIRI_ARGUMENT_BUDGET].of(), "", NULL, budget, &fault) != KIRI_OK) {
         return KIRI_ERROR_ARGUMENT;
     }
     KIRI_TIMES(i, KIRI_STAGE_COUNT) {

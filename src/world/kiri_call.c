@@ -138,7 +138,7 @@ static const char* FaultOfStitches(const void* value)
 
 /* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
-/* Tables of members. All are listed but the cookie and functions of the host. OF is the type of the struct. */
+/* Tables of members. All are listed but the cookie and functions of the host. */
 #define MEMBER(member) .name = #member, .offset = (int32_t)offsetof(OF, member)
 #define NUMBERS_IN(member) MEMBER(member), .count = (int32_t)sizeof(((OF*)NULL)->member) / 4
 #define INTS_IN(member, ...)                                                                                           \
@@ -155,11 +155,17 @@ static const char* FaultOfStitches(const void* value)
     }
 #define STRUCT_IN(member, struct_)                                                                                     \
     {                                                                                                                  \
-        .form = KIRI_FORM_STRUCT, MEMBER(member), .of = &struct_                                                       \
+        .form = KIRI_FORM_STRUCT, MEMBER(member), .of = struct_                                                        \
     }
-#define STRUCT_OF(Type, cookie, filledBy, members)                                                                     \
+/* A table of the members of a struct, OF in them. */
+#define STRUCT(Name, Type, cookie, filledBy, ...)                                                                      \
+    const kiriStruct* Name(void)                                                                                       \
     {                                                                                                                  \
-        (int32_t)sizeof(Type), cookie, filledBy, (int32_t)(sizeof(members) / sizeof((members)[0])), members            \
+        typedef Type OF;                                                                                               \
+        static const kiriValue members[] = __VA_ARGS__;                                                                \
+        static const kiriStruct table = { (int32_t)sizeof(OF), cookie, filledBy,                                       \
+                                          (int32_t)(sizeof(members) / sizeof(*members)), members };                    \
+        return &table;                                                                                                 \
     }
 
 #define WITHIN(low_, high_) .low = (low_), .high = (high_)
@@ -171,50 +177,36 @@ static const char* FaultOfStitches(const void* value)
 #define COUNTING WITHIN(0, INT32_MAX)
 #define YES_OR_NO WITHIN(0, 1)
 
-#define OF kiriBudget
-static const kiriValue budgetMembers[] = {
+static STRUCT(BudgetStruct, kiriBudget, 0, NULL, {
     INTS_IN(triangles, COUNTING, .fault = FaultOfTriangles),
     INTS_IN(cells, COUNTING),
     INTS_IN(samples, COUNTING),
     INTS_IN(iterations, COUNTING),
-};
-#undef OF
-static const kiriStruct budgetStruct = STRUCT_OF(kiriBudget, 0, NULL, budgetMembers);
+})
 
-#define OF kiriWorldDef
-static const kiriValue worldDefMembers[] = {
+STRUCT(kiriWorldDefStruct, kiriWorldDef, KIRI_COOKIE(kiriWorldDef), "kiriDefaultWorldDef", {
     FLOATS_IN(gravity, ANY_FINITE),
-    STRUCT_IN(budget, budgetStruct),
+    STRUCT_IN(budget, BudgetStruct),
     INTS_IN(workerCount, WITHIN(0, 1024)),
     INTS_IN(recordHashTicks, COUNTING),
-};
-#undef OF
-const kiriStruct kiriWorldDefStruct =
-    STRUCT_OF(kiriWorldDef, KIRI_COOKIE(kiriWorldDef), "kiriDefaultWorldDef", worldDefMembers);
+})
 
-#define OF kiriWind
-static const kiriValue windMembers[] = {
+static STRUCT(WindStruct, kiriWind, 0, NULL, {
     FLOATS_IN(velocity, ANY_FINITE),
     FLOATS_IN(density, FROM_0),
     FLOATS_IN(drag, FROM_0),
     FLOATS_IN(lift, FROM_0),
-};
-#undef OF
-static const kiriStruct windStruct = STRUCT_OF(kiriWind, 0, NULL, windMembers);
+})
 
-#define OF kiriTearing
-static const kiriValue tearingMembers[] = {
+static STRUCT(TearingStruct, kiriTearing, 0, NULL, {
     FLOATS_IN(toughness, FROM_0),
     FLOATS_IN(grain, ANY_FINITE),
     FLOATS_IN(grainRatio, FROM_0),
     FLOATS_IN(maxSpeed, FROM_0),
     INTS_IN(maxTips, COUNTING),
-};
-#undef OF
-static const kiriStruct tearingStruct = STRUCT_OF(kiriTearing, 0, NULL, tearingMembers);
+})
 
-#define OF kiriContact
-static const kiriValue contactMembers[] = {
+static STRUCT(ContactStruct, kiriContact, 0, NULL, {
     INTS_IN(point, WITHIN(-1, INT32_MAX)),
     FLOATS_IN(restPoint, ANY_NUMBER), /* used if point is -1; kiriSheet_SetContacts checks it */
     FLOATS_IN(normal, ANY_FINITE, .fault = FaultOfNormal),
@@ -224,29 +216,22 @@ static const kiriValue contactMembers[] = {
     FLOATS_IN(inverseMass, FROM_0),
     FLOATS_IN(pushSpeed, FROM_0),
     INTS_IN(obstacle, ANY_NUMBER),
-};
-#undef OF
-static const kiriStruct contactStruct = STRUCT_OF(kiriContact, 0, NULL, contactMembers);
+})
 
 #define ID_KIND(kind_) .kind = #kind_, .refers = (int32_t)offsetof(kiriWorld, kind_##Ids)
 #define ID_IN(member, kind_, ...)                                                                                      \
     {                                                                                                                  \
         .form = KIRI_FORM_ID, NUMBERS_IN(member), ID_KIND(kind_), __VA_ARGS__                                          \
     }
-#define OF kiriPinDef
-static const kiriValue pinDefMembers[] = {
+static STRUCT(PinDefStruct, kiriPinDef, KIRI_COOKIE(kiriPinDef), "kiriDefaultPinDef", {
     FLOATS_IN(restPoint, ANY_FINITE),
     FLOATS_IN(target, ANY_FINITE),
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(breakForce, FROM_0),
     ID_IN(obstacle, obstacle, .isOptional = true),
-};
-#undef OF
-static const kiriStruct pinDefStruct =
-    STRUCT_OF(kiriPinDef, KIRI_COOKIE(kiriPinDef), "kiriDefaultPinDef", pinDefMembers);
+})
 
-#define OF kiriSeamDef
-static const kiriValue seamDefMembers[] = {
+static STRUCT(SeamDefStruct, kiriSeamDef, KIRI_COOKIE(kiriSeamDef), "kiriDefaultSeamDef", {
     ID_IN(sheetA, sheet, .isOptional = false),
     ID_IN(sheetB, sheet, .isOptional = false),
     INTS_IN(countA, WITHIN(2, 65536)),
@@ -257,24 +242,17 @@ static const kiriValue seamDefMembers[] = {
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(restAngle, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)),
     FLOATS_IN(breakForce, FROM_0),
-};
-#undef OF
-static const kiriStruct seamDefStruct =
-    STRUCT_OF(kiriSeamDef, KIRI_COOKIE(kiriSeamDef), "kiriDefaultSeamDef", seamDefMembers);
+})
 
-#define OF kiriFold
-static const kiriValue foldMembers[] = {
+static STRUCT(FoldStruct, kiriFold, 0, NULL, {
     FLOATS_IN(from, ANY_FINITE),
     FLOATS_IN(to, ANY_FINITE),
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(restAngle, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)),
     FLOATS_IN(yieldMoment, FROM_0),
-};
-#undef OF
-static const kiriStruct foldStruct = STRUCT_OF(kiriFold, 0, NULL, foldMembers);
+})
 
-#define OF kiriMaterial
-static const kiriValue materialMembers[] = {
+static STRUCT(MaterialStruct, kiriMaterial, 0, NULL, {
     FLOATS_IN(youngsModulus, ABOVE_0),
     FLOATS_IN(poissonsRatio, WITHIN(0.0, 0.49999997)), /* the last float below 0.5 */
     FLOATS_IN(thickness, ABOVE_0),
@@ -285,13 +263,11 @@ static const kiriValue materialMembers[] = {
     FLOATS_IN(hardening, WITHIN(0.0, 0.99999994)), /* the last float below 1 */
     FLOATS_IN(slack, WITHIN(0.0, 0.99999994)),
     INTS_IN(detail, WITHIN(0, KIRI_MOST_DETAIL)),
-};
-#undef OF
-static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materialMembers);
+})
 
 /* Members of both kiriSheetSettings and kiriSheetDef. */
 #define SETTINGS_MEMBERS                                                                                               \
-    STRUCT_IN(material, materialStruct), INTS_IN(maxFrames, WITHIN(1, INT32_MAX)), FLOATS_IN(crumbArea, FROM_0),       \
+    STRUCT_IN(material, MaterialStruct), INTS_IN(maxFrames, WITHIN(1, INT32_MAX)), FLOATS_IN(crumbArea, FROM_0),       \
         FLOATS_IN(friction, FROM_0), FLOATS_IN(contactThickness, FROM_0), INTS_IN(groups, ANY_NUMBER),                 \
         INTS_IN(touchesSheets, YES_OR_NO), INTS_IN(selfContact, YES_OR_NO), INTS_IN(iterations, WITHIN(1, 64)),        \
         FLOATS_IN(sleepSpeed, FROM_0),                                                                                 \
@@ -299,25 +275,19 @@ static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materi
         INTS_IN(timeStepping, WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)),                      \
         FLOATS_IN(fadeTime, FROM_0), INTS_IN(normals, YES_OR_NO)
 
-#define OF kiriSheetSettings
-static const kiriValue settingsMembers[] = { SETTINGS_MEMBERS };
-#undef OF
-const kiriStruct kiriSettingsStruct =
-    STRUCT_OF(kiriSheetSettings, KIRI_COOKIE(kiriSheetSettings), "kiriSheet_GetSettings", settingsMembers);
+STRUCT(kiriSettingsStruct, kiriSheetSettings, KIRI_COOKIE(kiriSheetSettings), "kiriSheet_GetSettings", {
+    SETTINGS_MEMBERS,
+})
 
-#define OF kiriPaperOptions
-static const kiriValue paperMembers[] = {
+static STRUCT(PaperStruct, kiriPaperOptions, 0, NULL, {
     INTS_IN(fromScratch, YES_OR_NO),
     INTS_IN(popping, YES_OR_NO),
     INTS_IN(linearWeights, YES_OR_NO),
     INTS_IN(integrationPoints, WITHIN(0, 1 << 20)),
     INTS_IN(integrationOrder, WITHIN(1, 2)),
-};
-#undef OF
-static const kiriStruct paperStruct = STRUCT_OF(kiriPaperOptions, 0, NULL, paperMembers);
+})
 
-#define OF kiriSheetDef
-static const kiriValue sheetDefMembers[] = {
+static STRUCT(SheetDefStruct, kiriSheetDef, KIRI_COOKIE(kiriSheetDef), "kiriDefaultSheetDef", {
     INTS_IN(vertexCount, WITHIN(3, INT32_MAX)), /* counts before arrays */
     INTS_IN(triangleCount, WITHIN(1, KIRI_MOST_TRIANGLES)),
     INTS_IN(frameCount, WITHIN(0, 65536)),
@@ -338,15 +308,11 @@ static const kiriValue sheetDefMembers[] = {
     INTS_IN(collisionPoints, WITHIN(0, 1 << 20)),
     INTS_IN(model, WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS)),
     INTS_IN(planar, YES_OR_NO),
-    STRUCT_IN(paper, paperStruct),
+    STRUCT_IN(paper, PaperStruct),
     SETTINGS_MEMBERS,
-};
-#undef OF
-static const kiriStruct sheetDefStruct =
-    STRUCT_OF(kiriSheetDef, KIRI_COOKIE(kiriSheetDef), "kiriDefaultSheetDef", sheetDefMembers);
+})
 
-#define OF kiriObstacleDef
-static const kiriValue obstacleDefMembers[] = {
+static STRUCT(ObstacleDefStruct, kiriObstacleDef, KIRI_COOKIE(kiriObstacleDef), "kiriDefaultObstacleDef", {
     INTS_IN(type, WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM)),
     FLOATS_IN(size, ANY_NUMBER), /* FaultOfObstacleDef checks those that the type uses */
     FLOATS_IN(radius, ANY_NUMBER),
@@ -366,10 +332,7 @@ static const kiriValue obstacleDefMembers[] = {
     INTS_IN(body, ANY_NUMBER),
     FLOATS_IN(pushSpeed, ABOVE_0),
     INTS_IN(groups, ANY_NUMBER),
-};
-#undef OF
-static const kiriStruct obstacleDefStruct =
-    STRUCT_OF(kiriObstacleDef, KIRI_COOKIE(kiriObstacleDef), "kiriDefaultObstacleDef", obstacleDefMembers);
+})
 
 /* ---- Arguments --------------------------------------------------------------------------------------------------- */
 
@@ -383,15 +346,15 @@ static const kiriStruct obstacleDefStruct =
     }
 #define STRUCT_ARGUMENT(struct_, ...)                                                                                  \
     {                                                                                                                  \
-        .form = KIRI_FORM_STRUCT, .of = &struct_, __VA_ARGS__                                                          \
+        .form = KIRI_FORM_STRUCT, .of = struct_, __VA_ARGS__                                                           \
     }
 #define ARRAY_ARGUMENT(item_, ...)                                                                                     \
     {                                                                                                                  \
         .form = KIRI_FORM_ARRAY, .item = &item_, __VA_ARGS__                                                           \
     }
 
-static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1),
-                       foldItem = STRUCT_ARGUMENT(foldStruct, .count = 1);
+static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(ContactStruct, .count = 1),
+                       foldItem = STRUCT_ARGUMENT(FoldStruct, .count = 1);
 
 #define FORM(...)                                                                                                      \
     {                                                                                                                  \
@@ -553,11 +516,12 @@ static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, con
     }
     if (value->form == KIRI_FORM_INTS || value->form == KIRI_FORM_FLOATS) {
         result = CheckNumbers(value, at, value->count, fault);
-    } else if (value->form == KIRI_FORM_STRUCT && value->of->cookie != 0 && *(const uint32_t*)at != value->of->cookie) {
-        KIRI_SAY(fault, " was not filled by %s", value->of->filledBy);
+    } else if (value->form == KIRI_FORM_STRUCT && value->of()->cookie != 0 &&
+               *(const uint32_t*)at != value->of()->cookie) {
+        KIRI_SAY(fault, " was not filled by %s", value->of()->filledBy);
         result = KIRI_ERROR_DEF;
     } else if (value->form == KIRI_FORM_STRUCT) {
-        result = kiriStruct_Check(value->of, "", world, at, fault);
+        result = kiriStruct_Check(value->of(), "", world, at, fault);
     } else if (value->form == KIRI_FORM_ID && !(value->isOptional && *(const uint32_t*)at == 0) &&
                FindById(value, world, at) == NULL) {
         KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at, value->kind);
@@ -614,7 +578,7 @@ static kiriResult CheckArray(const kiriValue* value, const kiriWorld* world, con
     } else if (item->form == KIRI_FORM_FLOATS) {
         result = CheckNumbers(item, at[0], (int64_t)item->count * count, fault);
     } else {
-        int32_t bytes = item->of != NULL ? item->of->bytes : (int32_t)sizeof(uint32_t);
+        int32_t bytes = item->of != NULL ? item->of()->bytes : (int32_t)sizeof(uint32_t);
         for (int64_t k = 0; result == KIRI_OK && k < count; ++k) {
             result = CheckValue(item, world, (const char*)at[0] + k * bytes, fault);
         }

@@ -109,15 +109,15 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(ROTATION_OR_NULL, FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation, .isOptional = true))                        \
     P(INERTIA, FLOATS_OF(6, ANY_FINITE, .fault = FaultOfInertia))                                                      \
     P(QUAD, FLOATS_OF(12, ANY_FINITE))                                                                                 \
-    P(BUDGET, STRUCT_ARGUMENT(budgetStruct, .count = 1)) /* structs */                                                 \
-    P(WIND, STRUCT_ARGUMENT(windStruct, .count = 1))                                                                   \
-    P(TEARING, STRUCT_ARGUMENT(tearingStruct, .count = 1))                                                             \
+    P(BUDGET, STRUCT_ARGUMENT(BudgetStruct, .count = 1)) /* structs */                                                 \
+    P(WIND, STRUCT_ARGUMENT(WindStruct, .count = 1))                                                                   \
+    P(TEARING, STRUCT_ARGUMENT(TearingStruct, .count = 1))                                                             \
     P(SETTINGS, STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1))                                                       \
-    P(PIN_DEF, STRUCT_ARGUMENT(pinDefStruct, .count = 1))                                                              \
-    P(SEAM_DEF, STRUCT_ARGUMENT(seamDefStruct, .fault = FaultOfSeamDef))                                               \
-    P(FOLD, STRUCT_ARGUMENT(foldStruct, .count = 1))                                                                   \
-    P(SHEET_DEF, STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef))                                            \
-    P(OBSTACLE_DEF, STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef))                                   \
+    P(PIN_DEF, STRUCT_ARGUMENT(PinDefStruct, .count = 1))                                                              \
+    P(SEAM_DEF, STRUCT_ARGUMENT(SeamDefStruct, .fault = FaultOfSeamDef))                                               \
+    P(FOLD, STRUCT_ARGUMENT(FoldStruct, .count = 1))                                                                   \
+    P(SHEET_DEF, STRUCT_ARGUMENT(SheetDefStruct, .fault = FaultOfSheetDef))                                            \
+    P(OBSTACLE_DEF, STRUCT_ARGUMENT(ObstacleDefStruct, .fault = FaultOfObstacleDef))                                   \
     P(NOTE, ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES))) /* arrays, each with a COUNT behind it */       \
     P(SAVE, ARRAY_ARGUMENT(byteItem, ANY_NUMBER))                                                                      \
     P(POINTS, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)))                                  \
@@ -162,7 +162,7 @@ typedef enum kiriForm {
     KIRI_FORM_INDICES_AT
 } kiriForm;
 
-struct kiriStruct;
+typedef const struct kiriStruct* kiriStructFn(void);
 
 /* What an argument may be, or a member of a struct. */
 typedef struct kiriValue {
@@ -173,7 +173,7 @@ typedef struct kiriValue {
     int32_t refers;   /* ids: offset of the pool in kiriWorld; arrays in structs: offset of the count */
     double low, high; /* inclusive range of the numbers, or of the count of an array; low > high: unchecked */
     bool isOptional;  /* may be null, or the id 0 */
-    const struct kiriStruct* of;
+    kiriStructFn* of;
     const struct kiriValue* item;
     const char* (*fault)(const void* value); /* returns null, or a fault as in "is not orthonormal"; null: no check */
 } kiriValue;
@@ -187,7 +187,7 @@ typedef struct kiriStruct {
 } kiriStruct;
 
 extern const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS];
-extern const kiriStruct kiriSettingsStruct, kiriWorldDefStruct;
+kiriStructFn kiriSettingsStruct, kiriWorldDefStruct;
 
 /* Cookie of a def: the size of its struct. It detects defs of another version and uninitialised defs. */
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))

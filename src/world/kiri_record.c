@@ -181,7 +181,7 @@ static void CodeValue(Coder* coder, const kiriValue* value, void* at)
         CodeId(coder, at);
         break;
     case KIRI_FORM_STRUCT:
-        CodeStruct(coder, value->of, at);
+        CodeStruct(coder, value->of(), at);
         break;
     default: /* counts are coded with their arrays, new ids with the outcome */
         break;
@@ -241,7 +241,7 @@ static int32_t BytesOf(const kiriValue* value)
 {
     switch (value->form) {
     case KIRI_FORM_STRUCT:
-        return value->of->bytes;
+        return value->of()->bytes;
     case KIRI_FORM_BYTE:
         return 1;
     case KIRI_FORM_DATA:

@@ -261,7 +261,7 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
     const kiriSettings* settings = &sheet->settings;
     const kiriSheetSettings* given = &settings->given;
     kiriFault fault;
-    bool isFine = kiriStruct_Check(&kiriSettingsStruct, "", NULL, given, &fault) == KIRI_OK &&
+    bool isFine = kiriStruct_Check(kiriSettingsStruct(), "", NULL, given, &fault) == KIRI_OK &&
                   memcmp(&given->material, &settings->material, sizeof(given->material)) == 0 &&
                   given->iterations == settings->iterations && given->skinning == settings->skinning &&
                   given->timeStepping == settings->mechanics.timeStepping;
