@@ -187,8 +187,8 @@ static void MoveBlock(kiriArchive* archive, const kiriMember* field, void* array
     if (archive->mode == KIRI_ARCHIVE_HASH && !hasItems) {
         return;
     }
+    header.count = field->kind == KIRI_MEMBER_ROOM ? 0 : header.count;
     if (!archive->isWhole) {
-        header.count = field->kind == KIRI_MEMBER_ROOM ? 0 : header.count;
         if (archive->mode != KIRI_ARCHIVE_HASH) {
             kiriArchive_Int32(archive, &header.capacity);
         }
@@ -197,7 +197,6 @@ static void MoveBlock(kiriArchive* archive, const kiriMember* field, void* array
         }
     }
     if (kiriArchive_Reads(archive)) {
-        header.count = field->kind == KIRI_MEMBER_ROOM ? 0 : header.count;
         kiriArchive_Expect(archive, header.count >= 0 && header.count <= header.capacity);
         header.data = header.capacity < 0 ? NULL : MakeBlock(archive, header.capacity * (int64_t)field->size);
         header.capacity = header.data == NULL ? 0 : header.capacity;

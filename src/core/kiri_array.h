@@ -256,13 +256,13 @@ void kiriKeep_Relink(const kiriKeep* keep, int32_t* heads, int32_t headCount, in
 /* An id has 3 bits kind, 7 bits generation, 22 bits slot. An id of another kind, or a stale id, finds nothing.
    Generations start at 1, so no id is 0. A slot with all generations used is retired, so no id repeats. */
 enum {
-    KIRI_KIND_SHEET = 0,
-    KIRI_KIND_CUT = 1,
-    KIRI_KIND_FRAME = 2,
-    KIRI_KIND_PIN = 3,
-    KIRI_KIND_OBSTACLE = 4,
-    KIRI_KIND_BLADE = 5,
-    KIRI_KIND_SEAM = 6
+    KIRI_KIND_SHEET,
+    KIRI_KIND_CUT,
+    KIRI_KIND_FRAME,
+    KIRI_KIND_PIN,
+    KIRI_KIND_OBSTACLE,
+    KIRI_KIND_BLADE,
+    KIRI_KIND_SEAM
 };
 
 typedef struct kiriSlot {

@@ -230,13 +230,8 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     made->gravity = kiriVec3_Load(def->gravity);
     made->budget = def->budget;
     made->stage = KIRI_NONE;
-    kiriPool_Init(&made->sheetIds, KIRI_KIND_SHEET);
-    kiriPool_Init(&made->cutIds, KIRI_KIND_CUT);
-    kiriPool_Init(&made->frameIds, KIRI_KIND_FRAME);
-    kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
-    kiriPool_Init(&made->obstacleIds, KIRI_KIND_OBSTACLE);
-    kiriPool_Init(&made->bladeIds, KIRI_KIND_BLADE);
-    kiriPool_Init(&made->seamIds, KIRI_KIND_SEAM);
+#define INIT_POOL(pool, kind) kiriPool_Init(&made->pool, KIRI_KIND_##kind);
+    KIRI_POOLS(INIT_POOL)
     kiriRecord_Start(made, def);
     *world = made;
     return KIRI_OK;

@@ -378,12 +378,9 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
 /* Checks the fields of a save, and derives the others. */
 static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
+#define CHECK_POOL(pool, kind) IsPool(&made->pool, KIRI_KIND_##kind) &&
     bool isFine = kiriArchive_HasFailed(archive) ||
-                  (IsPool(&made->sheetIds, KIRI_KIND_SHEET) && IsPool(&made->cutIds, KIRI_KIND_CUT) &&
-                   IsPool(&made->frameIds, KIRI_KIND_FRAME) && IsPool(&made->pinIds, KIRI_KIND_PIN) &&
-                   IsPool(&made->obstacleIds, KIRI_KIND_OBSTACLE) && IsPool(&made->bladeIds, KIRI_KIND_BLADE) &&
-                   IsPool(&made->seamIds, KIRI_KIND_SEAM) &&
-                   made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
+                  (KIRI_POOLS(CHECK_POOL) made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
                    made->newEvents <= made->events.count);
     kiriArchive_Expect(archive, isFine);
     KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->sheets) {

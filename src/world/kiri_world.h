@@ -200,6 +200,11 @@ struct kiriWorld {
     int32_t readers, logs; /* callbacks in progress: of functions that only read; of the log */
 };
 
+/* The pools of a world, and the kinds of their ids. */
+#define KIRI_POOLS(X)                                                                                                  \
+    X(sheetIds, SHEET) X(cutIds, CUT) X(frameIds, FRAME) X(pinIds, PIN) X(obstacleIds, OBSTACLE) X(bladeIds, BLADE)    \
+    X(seamIds, SEAM)
+
 static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
 {
     return world->sheets.data[world->active.data[k]];
