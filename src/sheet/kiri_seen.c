@@ -681,57 +681,34 @@ static void ListDetail(kiriSheetData* sheet)
     }
 }
 
-typedef struct DetailTask {
-    kiriDetail* detail;
-    const float* skin;
-    int32_t color;
-} DetailTask;
-
-static void BeginDetail(int32_t start, int32_t end, void* context)
-{
-    const DetailTask* task = context;
-    kiriDetail_Begin(task->detail, task->skin, start, end);
-}
-
-static void SweepDetail(int32_t start, int32_t end, void* context)
-{
-    const DetailTask* task = context;
-    kiriDetail_Sweep(task->detail, task->color, start, end);
-}
-
-static void LeashDetail(int32_t start, int32_t end, void* context)
-{
-    const DetailTask* task = context;
-    kiriDetail_Leash(task->detail, task->skin, start, end);
-}
-
 bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
 {
     enum { GROUPS = 512, VERTICES = 4096 }; /* a task of about 10 us */
     kiriSurface* surface = &sheet->seen.surface;
-    DetailTask task = { &surface->detail, kiriSurface_Places(surface), 0 };
+    kiriDetailTask task = { &surface->detail, kiriSurface_Places(surface), 0 };
     if (!kiriSurface_HasDetail(surface) || surface->isWritten) {
         return false;
     }
     ListDetail(sheet);
     int32_t count = task.detail->vertices.count;
-    kiriTasks_Run(tasks, BeginDetail, count, VERTICES, &task);
+    kiriTasks_Run(tasks, kiriDetail_Begin, count, VERTICES, &task);
     KIRI_TIMES(sweep, task.detail->sweeps) {
         for (task.color = 0; task.color < KIRI_DETAIL_COLORS; ++task.color) {
             int32_t groups = kiriDetail_GroupCount(task.detail, task.color);
-            kiriTasks_Run(tasks, SweepDetail, groups, task.color < KIRI_DETAIL_COLORS - 1 ? GROUPS : INT32_MAX, &task);
+            int32_t least = task.color < KIRI_DETAIL_COLORS - 1 ? GROUPS : INT32_MAX;
+            kiriTasks_Run(tasks, kiriDetail_Sweep, groups, least, &task);
         }
-        kiriTasks_Run(tasks, LeashDetail, count, VERTICES, &task);
+        kiriTasks_Run(tasks, kiriDetail_Leash, count, VERTICES, &task);
     }
     kiriDetail_Smooth(task.detail, task.skin);
-    kiriTasks_Run(tasks, LeashDetail, count, VERTICES, &task);
+    kiriTasks_Run(tasks, kiriDetail_Leash, count, VERTICES, &task);
     return count > 0;
 }
 
 void kiriView_EndRelaxing(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    kiriDetail_End(&surface->detail, kiriSurface_Places(surface), 0, surface->detail.vertices.count);
+    kiriDetail_End(&surface->detail, kiriSurface_Places(surface));
 }
 
 void kiriView_KeepBounds(kiriSheetData* sheet)

@@ -131,12 +131,14 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------------ */
 
-void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+void kiriDetail_Begin(int32_t begin, int32_t end, void* context)
 {
+    const kiriDetailTask* task = context;
+    kiriDetail* detail = task->detail;
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
     KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
-        const float *from = skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
+        const float *from = task->skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
         float *to = detail->moving.data + 4 * item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
         KIRI_TIMES(i, 3) {
             to[i] = from[i] + keep * by[i];
@@ -186,8 +188,10 @@ static inline void RelaxFour(float* at, const kiriDetailEdge edges[4])
     }
 }
 
-void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t end)
+void kiriDetail_Sweep(int32_t begin, int32_t end, void* context)
 {
+    kiriDetail* detail = ((const kiriDetailTask*)context)->detail;
+    const int32_t color = ((const kiriDetailTask*)context)->color;
     const int32_t each = color < KIRI_DETAIL_COLORS - 1 ? 4 : 1, vertices = detail->offsets.count / 3;
     const kiriDetailEdge* edges = detail->edges.data + detail->colorStart[color];
     const int32_t count = detail->colorStart[color + 1] - detail->colorStart[color];
@@ -205,12 +209,14 @@ void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t 
     }
 }
 
-void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+void kiriDetail_Leash(int32_t begin, int32_t end, void* context)
 {
+    const kiriDetailTask* task = context;
+    kiriDetail* detail = task->detail;
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
     KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
-        const float* from = skin + 3 * item.vertex;
+        const float* from = task->skin + 3 * item.vertex;
         float* at = detail->moving.data + 4 * item.vertex;
         float x = at[0] - from[0], y = at[1] - from[1], z = at[2] - from[2], square = x * x + y * y + z * z;
         if (item.leash > 0.0f && !(square <= item.leash * item.leash)) {
@@ -262,10 +268,10 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
     }
 }
 
-void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+void kiriDetail_End(kiriDetail* detail, const float* skin)
 {
-    KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
-    KIRI_FROM_TO(k, begin, end) {
+    KIRI_ASSERT(detail->isListed);
+    KIRI_EACH_INDEX(k, detail->vertices) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float *at = detail->moving.data + 4 * item.vertex, *from = skin + 3 * item.vertex;
         float by[3] = { at[0] - from[0], at[1] - from[1], at[2] - from[2] }, *to = detail->offsets.data + (from - skin);

@@ -53,14 +53,19 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
    alone. O(triangles). */
 void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh);
 
-/* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, Leash, then End. `skin`: 3 floats a vertex. Items
-   [begin, end) are groups of edges in a color, or listed vertices; ranges may run in parallel. */
-void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+/* Context of the tasks of a tick. */
+typedef struct kiriDetailTask {
+    kiriDetail* detail;
+    const float* skin; /* 3 floats a vertex */
+    int32_t color;     /* of the sweep */
+} kiriDetailTask;
+
+/* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, Leash, then End. Items of the tasks are groups of
+   edges in a color, or listed vertices. */
+kiriTaskFn kiriDetail_Begin, kiriDetail_Sweep, kiriDetail_Leash;
 int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color);
-void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t end);
-void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
 void kiriDetail_Smooth(kiriDetail* detail, const float* skin);
-void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+void kiriDetail_End(kiriDetail* detail, const float* skin);
 
 /* Writes the drawn positions of the vertices from `begin` to `end`. Measure updates `longest`. */
 void kiriDetail_Draw(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
