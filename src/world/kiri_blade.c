@@ -144,7 +144,7 @@ static void NotePassing(Track* track, kiriVec2 to)
     kiriLoop* loop = &track->loop;
     kiriVec2 way = kiriVec2_Sub(to, track->rest), left = kiriVec2_Sub(loop->start, track->rest);
     double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(left, way) / square : 0.0;
-    kiriVec2 near = kiriVec2_Add(track->rest, kiriVec2_Scale(share > 0.0 ? share : 0.0, way));
+    kiriVec2 near = kiriVec2_AddScaled(track->rest, kiriMax(share, 0.0), way);
     bool isRound = loop->length > ROUND * kiriVec2_Distance(track->rest, near);
     if (!loop->isPassed && share <= 1.0 && isRound && IsLoopNear(loop, near)) {
         loop->isPassed = true;
@@ -170,7 +170,7 @@ static kiriVec2 FootOnWay(kiriVec2 a, kiriVec2 b, kiriVec2 p)
 {
     kiriVec2 way = kiriVec2_Sub(b, a);
     double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
-    return kiriVec2_Add(a, kiriVec2_Scale(share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share, way));
+    return kiriVec2_AddScaled(a, kiriClamp(share, 0.0, 1.0), way);
 }
 
 static bool FindSlit(const BladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit);
@@ -269,7 +269,7 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
     kiriVec2 from = track->rest;
     bool ok = true;
     for (int32_t i = 1; ok && i <= count; ++i) {
-        kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / count, kiriVec2_Sub(rest, from)));
+        kiriVec2 at = kiriVec2_AddScaled(from, (double)i / count, kiriVec2_Sub(rest, from));
         kiriVec2 slit, other, here;
         bool isNear = FindSlit(work, at, near, &slit);
         if (!isNear && FindSlit(work, at, 2.0 * near, &slit)) {
@@ -307,7 +307,7 @@ static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2
                     !FindLipNear(work, to, 2.0 * BESIDE_LIP * work->snap, OUTLINE, &slit);
     *start = *end;
     for (int32_t i = places - 1; isInSlit && i >= 0; --i) {
-        kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
+        kiriVec2 at = kiriVec2_AddScaled(from, (double)i / places, kiriVec2_Sub(to, from));
         isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
                    FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(*start, slit)),
                             kiriMin(ON_LIP * work->snap, BETWEEN * kiriVec2_Distance(*start, slit) + 0.01 * work->snap),
@@ -733,15 +733,16 @@ static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
 {
     KIRI_EACH(const kiriLayer, layer, blade->layers) {
         kiriCutData* cut = CutOf(world, layer);
-        if (cut != NULL && layer->loop.isPassed) {
+        if (cut == NULL) {
+            continue;
+        }
+        if (layer->loop.isPassed) {
             kiriWorld_QueuePoint(world, cut, layer->loop.near, true);
         }
-        if (cut != NULL && (layer->loop.isPassed || IsLoopNear(&layer->loop, layer->rest))) {
+        if (layer->loop.isPassed || IsLoopNear(&layer->loop, layer->rest)) {
             kiriWorld_QueuePoint(world, cut, layer->loop.start, false);
         }
-        if (cut != NULL) {
-            kiriWorld_EndCut(world, cut);
-        }
+        kiriWorld_EndCut(world, cut);
     }
 }
 

@@ -116,17 +116,23 @@ static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_
     return false;
 }
 
+bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet, const kiriFlags* rest)
+{
+    bool some = false;
+    KIRI_ASSERT(sheet->layout.pieces.count > 0);
+    KIRI_EACH_INDEX_WHILE(!some, p, sheet->layout.pieces) {
+        bool isThere = rest != NULL ? rest->data[p] != 0 : !sheet->layout.pieces.data[p].isGone;
+        some = isThere && !IsLeaving(world, sheet, p);
+    }
+    return some;
+}
+
 /* Returns true if each sheet keeps a piece. */
 static bool LeavesSome(const Parting* parting)
 {
     bool all = true;
-    KIRI_EACH(const PartSource, source, parting->sources) {
-        const kiriSubset* rest = &source->detach.rest;
-        bool some = false;
-        KIRI_EACH_INDEX_WHILE(!some, p, rest->pieces) {
-            some = rest->pieces.data[p] && !IsLeaving(parting->world, rest->from, p);
-        }
-        all = all && some;
+    KIRI_EACH_WHILE(all, const PartSource, source, parting->sources) {
+        all = kiriParts_StaySome(parting->world, source->detach.sheet, &source->detach.rest.pieces);
     }
     return all;
 }
@@ -329,16 +335,6 @@ static int32_t CountPaid(const kiriWorld* world, const kiriSheetData* sheet, int
         }
     }
     return *cost <= samples ? sheet->leaving.count : KIRI_NONE;
-}
-
-bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet)
-{
-    bool some = false;
-    KIRI_ASSERT(sheet->layout.pieces.count > 0);
-    KIRI_EACH_INDEX_WHILE(!some, p, sheet->layout.pieces) {
-        some = !sheet->layout.pieces.data[p].isGone && !IsLeaving(world, sheet, p);
-    }
-    return some;
 }
 
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)

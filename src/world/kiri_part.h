@@ -10,8 +10,8 @@ KIRI_C_BEGIN
 /* Returns true if pieces wait and no cut is worked on in the sheet. No such work begins before they have left. */
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 
-/* Returns true if a piece of the sheet neither is gone nor waits. */
-bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet);
+/* Returns true if a piece of the sheet neither is gone nor waits. `rest`: only these pieces count, unless it is null. */
+bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet, const kiriFlags* rest);
 
 /* Pays for the pieces that are due, with the samples that are left at the end of a tick. */
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);

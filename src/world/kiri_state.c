@@ -269,7 +269,7 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
         const kiriSlot* slot = kiriPool_Find(&world->frameIds, *at);
         isFine = slot == NULL || slot->owner == sheet;
     }
-    return isFine && kiriParts_StaySome(world, sheet);
+    return isFine && kiriParts_StaySome(world, sheet, NULL);
 }
 
 /* ---- The format -------------------------------------------------------------------------------------------------- */
