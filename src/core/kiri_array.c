@@ -435,6 +435,17 @@ bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index)
     return isFree;
 }
 
+bool kiriPool_IsSound(const kiriPool* pool, uint32_t kind)
+{
+    bool isFine = pool->kind == kind && pool->freeCount >= 0;
+    int32_t slot = pool->freeSlot;
+    KIRI_TIMES_WHILE(isFine, k, pool->freeCount) {
+        isFine = slot >= 0 && slot < pool->slots.count && pool->slots.data[slot].owner == NULL;
+        slot = isFine ? pool->slots.data[slot].index : slot;
+    }
+    return isFine && slot == KIRI_NONE;
+}
+
 void kiriPool_Remove(kiriPool* pool, uint32_t id)
 {
     kiriSlot* s = kiriPool_Find(pool, id);

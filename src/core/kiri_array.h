@@ -295,6 +295,9 @@ void kiriPool_Remove(kiriPool* pool, uint32_t id);
 /* Sets the owner of an id in a pool that was loaded without owners. Returns false if the id is not free. */
 bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index);
 
+/* Returns true if a loaded pool is of this kind, and its free slots are in one list and have no owners. */
+bool kiriPool_IsSound(const kiriPool* pool, uint32_t kind);
+
 KIRI_C_END
 
 #endif

@@ -127,16 +127,6 @@ bool kiriParts_StaySome(const kiriWorld* world, const kiriSheetData* sheet, cons
     return some;
 }
 
-/* Returns true if each sheet keeps a piece. */
-static bool LeavesSome(const Parting* parting)
-{
-    bool all = true;
-    KIRI_EACH_WHILE(all, const PartSource, source, parting->sources) {
-        all = kiriParts_StaySome(parting->world, source->detach.sheet, &source->detach.rest.pieces);
-    }
-    return all;
-}
-
 /* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
 /* Defers sheets whose pieces cost more than the remaining samples of a tick. Sheets with a cut in progress, or with
@@ -472,7 +462,11 @@ static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
     if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
-        result = !LeavesSome(&parting) ? KIRI_ERROR_STATE : ids != NULL ? Detach(&parting) : Destroy(&parting);
+        bool areLeft = true; /* pieces of each sheet */
+        KIRI_EACH_WHILE(areLeft, const PartSource, source, parting.sources) {
+            areLeft = kiriParts_StaySome(world, source->detach.sheet, &source->detach.rest.pieces);
+        }
+        result = !areLeft ? KIRI_ERROR_STATE : ids != NULL ? Detach(&parting) : Destroy(&parting);
     }
     KIRI_TIMES_WHILE(ids != NULL && result >= 0, i, count) {
         const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;

@@ -222,18 +222,6 @@ static bool ClaimIds(kiriWorld* world)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-/* Free slots are in one list, and have no owners. */
-static bool IsPool(const kiriPool* pool, uint32_t kind)
-{
-    bool isFine = pool->kind == kind && pool->freeCount >= 0;
-    int32_t slot = pool->freeSlot;
-    KIRI_TIMES_WHILE(isFine, k, pool->freeCount) {
-        isFine = slot >= 0 && slot < pool->slots.count && pool->slots.data[slot].owner == NULL;
-        slot = isFine ? pool->slots.data[slot].index : slot;
-    }
-    return isFine && slot == KIRI_NONE;
-}
-
 /* Returns true if the points of all stitches are in sheets that can be sewn. */
 static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
 {
@@ -378,7 +366,7 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
 /* Checks the fields of a save, and derives the others. */
 static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
-#define CHECK_POOL(pool, kind) IsPool(&made->pool, KIRI_KIND_##kind) &&
+#define CHECK_POOL(pool, kind) kiriPool_IsSound(&made->pool, KIRI_KIND_##kind) &&
     bool isFine = kiriArchive_HasFailed(archive) ||
                   (KIRI_POOLS(CHECK_POOL) made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
                    made->newEvents <= made->events.count);
