@@ -223,7 +223,7 @@ static void CheckStruct(const char* name, const kiriStruct* of)
         const kiriValue* member = &of->members[i];
         bool isPointer = member->form >= KIRI_FORM_FLOATS_AT;
         int32_t bytes = isPointer                          ? (int32_t)sizeof(void*)
-                        : member->form == KIRI_FORM_STRUCT ? member->of->bytes
+                        : member->form == KIRI_FORM_STRUCT ? member->of()->bytes
                                                            : 4 * member->count;
         pointers += isPointer;
         for (int32_t k = 0; k < bytes; k++) {
@@ -231,7 +231,7 @@ static void CheckStruct(const char* name, const kiriStruct* of)
             covered[member->offset + k] = true;
         }
         if (member->form == KIRI_FORM_STRUCT) {
-            CheckStruct(name, member->of);
+            CheckStruct(name, member->of());
         }
     }
     int32_t left = 0;
@@ -249,9 +249,9 @@ TEST(AllFieldsAreRecorded)
     int32_t found = 0;
     for (int32_t kind = 0; kind < KIRI_ARGUMENT_KINDS; kind++) {
         const kiriValue* value = &kiriArguments[kind];
-        const kiriStruct* of = value->item != NULL ? value->item->of : value->of;
+        kiriStructFn* of = value->item != NULL ? value->item->of : value->of;
         if (of != NULL) {
-            CheckStruct("an argument", of);
+            CheckStruct("an argument", of());
             found++;
         }
     }
