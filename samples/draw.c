@@ -1,5 +1,5 @@
 #include "draw.h"
-#include "canvas.h"
+#include "canvas_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -119,7 +119,7 @@ static void AddPeg(Canvas* canvas, const float pin[3], float size)
 }
 
 /* A thread from the ceiling, if the pin is not on the floor, and a knot. */
-static void AddThread(Canvas* canvas, const float pin[3], float size)
+static void AddThread(Canvas* canvas, const float pin[3], float size, float knotRadius)
 {
     static const float upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const float above[3] = { pin[0], pin[1], pin[2] + 4.0f * size };
@@ -127,7 +127,7 @@ static void AddThread(Canvas* canvas, const float pin[3], float size)
         Canvas_AddLine(canvas, pin, above, 1.2f, thread);
     }
     CanvasBody knot = MakeBody(CANVAS_SPHERE, pin, upright, thread);
-    knot.radius = 0.006f * size;
+    knot.radius = knotRadius;
     Canvas_AddBody(canvas, &knot);
 }
 
@@ -167,13 +167,19 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
         camera.eye[i] = size * view->camera.eye[i];
         camera.target[i] = size * view->camera.target[i];
     }
+    float right[3], up[3], back[3], away = CanvasCamera_GetAxes(&camera, right, up, back);
+    float knotRadius = 0.008f * CanvasCamera_GetHalfHeight(&camera, away); /* as large in all pictures */
     Canvas_Begin(canvas, &camera, sky, haze);
     Canvas_SetFloor(canvas, -0.002f * size, ground);
     if (!AddSheet(painter, view, size, &texture)) {
         return false;
     }
     for (int32_t i = 0; i < view->pinCount; i++) {
-        (view->pegs ? AddPeg : AddThread)(canvas, view->pins + 3 * i, size);
+        if (view->pegs) {
+            AddPeg(canvas, view->pins + 3 * i, size);
+        } else {
+            AddThread(canvas, view->pins + 3 * i, size, knotRadius);
+        }
     }
     for (int32_t i = 0; i < view->bladeCount && i < VIEW_MOST_BLADES; i++) {
         AddKnife(canvas, view->blades + 3 * i, size, outlines[i]);
