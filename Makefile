@@ -129,7 +129,7 @@ TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,
 FUZZERS := calls load mesh replay spoil
 # What `make accuracy` is made of beside its driver.
 ACCURACY_PARTS := $(addprefix tests/,accuracy_beam accuracy_plate accuracy_shell accuracy_cut accuracy_motion specimen \
-                  frame_layout results reference trade sweep)
+                  frame_layout results reference)
 # What `make contact` is made of beside its driver.
 CONTACT_PARTS := $(addprefix tests/,contact_laws contact_obstacles contact_rest contact_sheets contact_meetings contact_folds contact_bodies)
 # What is measured of sheets among bodies of Box2D.
@@ -609,7 +609,7 @@ $(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_O
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lSDL2_ttf -lSDL2 -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
-$(addprefix $(BUILD)/tests/test_,api callbacks lifetimes record refusals): $(BUILD)/tests/every_call.c.o
+$(addprefix $(BUILD)/tests/test_,api callbacks lifetimes readers record refusals): $(BUILD)/tests/every_call.c.o
 
 $(BUILD)/tests/test_extremes: $(BUILD)/tests/extremes.c.o
 

@@ -1,12 +1,10 @@
 /* How far sheets are from the truth, by frames, grid, substeps and the time of a tick: a table here, and a CSV file
    in build/accuracy. Results from outside (theory, the literature, shells and beams solved by other programs; see
-   data/README.md) are the truth, but for what moves: there a much finer run is (trade.c). */
+   data/README.md) are the truth. `make trade` measures sheets that move against a much finer run. */
 #include "accuracy.h"
 
 #include "results.h"
 #include "specimen.h"
-#include "sweep.h"
-#include "trade.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -39,14 +37,6 @@ int main(int argc, char** argv)
     Results_PrintHead();
     int ran = RunCases(data, wanted);
     Require(Results_Write(output), "cannot write the results");
-    for (int32_t scene = 0; scene < SWEEP_SCENES; ++scene) {
-        char name[32];
-        snprintf(name, sizeof name, "trade, %s", sweepNames[scene]);
-        if (wanted == NULL || strncmp(name, wanted, strlen(wanted)) == 0) {
-            Require(Trade_Write(output, scene), "cannot measure the trade of speed for accuracy");
-            ++ran;
-        }
-    }
     Require(ran > 0, "no such case");
     return 0;
 }

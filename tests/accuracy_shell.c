@@ -74,22 +74,23 @@ static SpecimenDef TongueSheet(double poisson, int grid)
     return def;
 }
 
-static const Shell* ReadWide(const char* data, int n)
+static const Shell* ReadShell(const char* data, const char* name, const float* slit, int points)
 {
     static Shell shell;
     char path[512];
-    snprintf(path, sizeof path, "%s/cantilever_nu0%s.csv", data, n == 0 ? "" : "3");
-    Require(Shell_Read(&shell, path, NULL, 0), "no data of the wide cantilever");
+    snprintf(path, sizeof path, "%s/%s.csv", data, name);
+    Require(Shell_Read(&shell, path, slit, points), "no data of a shell");
     return &shell;
+}
+
+static const Shell* ReadWide(const char* data, int n)
+{
+    return ReadShell(data, n == 0 ? "cantilever_nu0" : "cantilever_nu03", NULL, 0);
 }
 
 static const Shell* ReadTongue(const char* data, int n)
 {
-    static Shell shell;
-    char path[512];
-    snprintf(path, sizeof path, "%s/tongue%s.csv", data, n == 0 ? "_nu0" : "");
-    Require(Shell_Read(&shell, path, tongueSlit, 3), "no data of the tongue");
-    return &shell;
+    return ReadShell(data, n == 0 ? "tongue_nu0" : "tongue", tongueSlit, 3);
 }
 
 /* Frames that the library spreads, or in a layout with about as many. */

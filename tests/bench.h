@@ -53,6 +53,15 @@ static inline kiriWorldDef Bench_WorldDef(void)
     return def;
 }
 
+/* The program's result. */
+static inline int Bench_End(bool fine, const char* fault)
+{
+    if (!fine) {
+        fprintf(stderr, "%s\n", fault);
+    }
+    return fine ? 0 : 1;
+}
+
 /* A square sheet of one metre, with squares x squares x 2 triangles. */
 static inline bool Bench_AddSheet(kiriWorld* world, kiriSheetDef* def, int32_t squares, kiriSheet* sheet)
 {
@@ -228,6 +237,17 @@ static inline void Table_Number(Table* table, double number)
 {
     Table_Judge(table, number, true);
 }
+
+static inline void Table_Numbers(Table* table, const double* numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        Table_Number(table, numbers[i]);
+    }
+}
+
+/* The next cells. */
+#define TABLE_NUMBERS(table, ...)                                                                                      \
+    Table_Numbers(table, (const double[]){ __VA_ARGS__ }, sizeof((const double[]){ __VA_ARGS__ }) / sizeof(double))
 
 static inline bool Table_Stop(Table* table)
 {

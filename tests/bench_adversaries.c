@@ -324,9 +324,7 @@ static void PrintCourse(Table* table, const Adversary* adversary, const Course* 
     int32_t at = WorstTick(course);
     double worst = course->times[at], median = MedianWaiting(course);
     Table_Text(table, adversary->name);
-    Table_Number(table, course->create);
-    Table_Number(table, course->plain);
-    Table_Number(table, median);
+    TABLE_NUMBERS(table, course->create, course->plain, median);
     Table_Judge(table, worst, worst - course->plain <= 2.0 * BUDGET_MS);
     Table_Judge(table, worst / median, worst < 1.0 || worst / median <= 2.0);
     Table_Text(table, NameOfStage(course->stages[at]));
@@ -446,8 +444,5 @@ int main(int count, char** arguments)
     fine = fine && Table_Start(&table, "adversaries", title, columns) &&
            RunRows(&table, count > 1 ? arguments[1] : NULL, &budget, &paces) && Table_Stop(&table) &&
            PrintItemTable(&paces);
-    if (!fine) {
-        fprintf(stderr, "bench_adversaries: something failed, or no row has that name\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_adversaries: something failed, or no row has that name");
 }

@@ -164,8 +164,7 @@ static bool Print(Stage* stage, const char* name, const char* title, const Row* 
         SCOPED(Series, seconds, Series_Free);
         Measure(stage, &rows[i], &seconds);
         Table_Text(&table, rows[i].name);
-        Table_Number(&table, units * Series_Quantile(&seconds, 0.0));
-        Table_Number(&table, units * Series_Median(&seconds));
+        TABLE_NUMBERS(&table, units * Series_Quantile(&seconds, 0.0), units * Series_Median(&seconds));
     }
     return Table_Stop(&table);
 }

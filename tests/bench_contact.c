@@ -106,15 +106,8 @@ int main(void)
         fine = RunCase(&cases[i], &cost);
         bare = cases[i].isBare ? cost.tick : bare;
         Table_Text(&table, cases[i].name);
-        Table_Number(&table, cases[i].frames);
-        Table_Number(&table, cost.contacts);
-        Table_Number(&table, cost.tick);
-        Table_Number(&table, cost.find);
-        Table_Number(&table, cost.tick / bare);
-        Table_Number(&table, cost.contacts > 0.0 ? 1e3 * (cost.tick - bare) / cost.contacts : (double)NAN);
+        TABLE_NUMBERS(&table, cases[i].frames, cost.contacts, cost.tick, cost.find, cost.tick / bare,
+                      cost.contacts > 0.0 ? 1e3 * (cost.tick - bare) / cost.contacts : (double)NAN);
     }
-    if (!fine) {
-        fprintf(stderr, "bench_contact: something failed\n");
-    }
-    return fine && Table_Stop(&table) ? EXIT_SUCCESS : EXIT_FAILURE;
+    return Bench_End(Table_Stop(&table) && fine, "bench_contact: something failed");
 }

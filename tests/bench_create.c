@@ -71,14 +71,11 @@ static bool Make(int32_t squares, int32_t grid, Made* made)
 static void PrintMade(Table* table, int32_t squares, int32_t grid, const Made* made, double aim)
 {
     double vertices = (double)(squares + 1) * (squares + 1);
-    Table_Number(table, vertices);
-    Table_Number(table, grid > 0 ? grid : 32);
+    TABLE_NUMBERS(table, vertices, grid > 0 ? grid : 32);
     Table_Judge(table, made->ms, !(made->ms > aim));
-    Table_Number(table, 1e6 * made->ms / vertices);
-    Table_Number(table, made->firstTick);
+    TABLE_NUMBERS(table, 1e6 * made->ms / vertices, made->firstTick);
     Table_Judge(table, (double)made->bytes / vertices, grid != 1024 || (double)made->bytes < 750.0 * vertices);
-    Table_Number(table, (double)made->after / vertices);
-    Table_Number(table, (double)made->peak / vertices);
+    TABLE_NUMBERS(table, (double)made->after / vertices, (double)made->peak / vertices);
     fflush(stdout);
 }
 
@@ -151,9 +148,7 @@ static bool BenchFrames(void)
             fine = MakeFrames(rows[i].squares, rows[i].grid, rows[i].frames, run % 2 == 1, &made[run % 2], &ms);
             best[run % 2] = ms < best[run % 2] ? ms : best[run % 2];
         }
-        Table_Number(&table, rows[i].squares);
-        Table_Number(&table, rows[i].grid);
-        Table_Number(&table, rows[i].frames);
+        TABLE_NUMBERS(&table, rows[i].squares, rows[i].grid, rows[i].frames);
         Table_Judge(&table, made[0], made[0] <= rows[i].frames);
         Table_Judge(&table, best[0], !(best[0] > rows[i].aim));
         Table_Number(&table, best[1]);
@@ -206,9 +201,7 @@ static bool BenchCrowds(void)
     for (size_t i = 0; fine && i < sizeof triangles / sizeof triangles[0]; i++) {
         double even = 0.0, crowded = 0.0;
         fine = MakeCrowd(triangles[i], 0.8, &even) && MakeCrowd(triangles[i], 1e-4, &crowded);
-        Table_Number(&table, triangles[i]);
-        Table_Number(&table, even);
-        Table_Number(&table, crowded);
+        TABLE_NUMBERS(&table, triangles[i], even, crowded);
         Table_Judge(&table, crowded / even, crowded / even <= 3.0);
         fflush(stdout);
     }
@@ -221,61 +214,33 @@ typedef struct Asked {
     double hash, ray, nextRay, slice, pieces, nextPieces; /* ms */
 } Asked;
 
-static bool TimeHash(kiriWorld* world, double* ms)
-{
-    uint64_t hash;
-    double start = Bench_Clock(NULL);
-    bool fine = kiriWorld_GetStateHash(world, &hash) == KIRI_OK;
-    *ms = 1e3 * (Bench_Clock(NULL) - start);
-    return fine;
-}
+/* True if the call succeeds; its time goes to `ms`. */
+#define TIMED(ms, call)                                                                                                \
+    (start = Bench_Clock(NULL), result = (call), (ms) = 1e3 * (Bench_Clock(NULL) - start), result == KIRI_OK)
 
-static bool TimeRay(kiriWorld* world, kiriSheet sheet, double* ms)
-{
-    kiriHit hit;
-    double start = Bench_Clock(NULL);
-    bool fine = kiriSheet_Raycast(world, sheet, (float[]){ 0.37f, 0.41f, 1.0f }, (float[]){ 0.0f, 0.0f, -1.0f }, 10.0f,
-                                  &hit) == KIRI_OK;
-    *ms = 1e3 * (Bench_Clock(NULL) - start);
-    return fine && hit.triangle >= 0;
-}
-
-/* Twice: the first time lists are made. */
-static bool TimePieces(kiriWorld* world, kiriSheet sheet, double* first, double* next)
-{
-    kiriPieceState state;
-    double start = Bench_Clock(NULL);
-    bool fine = kiriSheet_GetPiece(world, sheet, 0, &state) == KIRI_OK;
-    *first = 1e3 * (Bench_Clock(NULL) - start);
-    start = Bench_Clock(NULL);
-    fine = fine && kiriSheet_GetPiece(world, sheet, 0, &state) == KIRI_OK;
-    *next = 1e3 * (Bench_Clock(NULL) - start);
-    return fine;
-}
-
-/* A short edge that goes down through the sheet. */
-static bool TimeSlice(kiriWorld* world, kiriSheet sheet, double* ms)
-{
-    static const float blade[12] = { 0.31f, 0.3f, 1.0f, 0.36f, 0.31f, 1.0f, 0.36f, 0.31f, -1.0f, 0.31f, 0.3f, -1.0f };
-    kiriCut cut;
-    double start = Bench_Clock(NULL);
-    bool fine = kiriSheet_Slice(world, sheet, blade, &cut) == KIRI_OK;
-    *ms = 1e3 * (Bench_Clock(NULL) - start);
-    return fine;
-}
-
+/* The first piece and the first ray twice: the first time lists are made. The slice is by a short edge. */
 static bool Ask(int32_t squares, Asked* asked)
 {
+    static const float blade[12] = { 0.31f, 0.3f, 1.0f, 0.36f, 0.31f, 1.0f, 0.36f, 0.31f, -1.0f, 0.31f, 0.3f, -1.0f };
+    static const float above[3] = { 0.37f, 0.41f, 1.0f }, down[3] = { 0.0f, 0.0f, -1.0f };
     kiriWorldDef worldDef = Bench_WorldDef();
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
-    bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, squares, &sheet) &&
-                kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeHash(world, &asked->hash) &&
-                TimePieces(world, sheet, &asked->pieces, &asked->nextPieces) && TimeRay(world, sheet, &asked->ray) &&
-                kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeRay(world, sheet, &asked->nextRay) &&
-                TimeSlice(world, sheet, &asked->slice);
-    return fine;
+    double start;
+    kiriResult result;
+    uint64_t hash;
+    kiriPieceState piece;
+    kiriHit hit = { .triangle = -1 };
+    kiriCut cut;
+    return kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, squares, &sheet) &&
+           kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TIMED(asked->hash, kiriWorld_GetStateHash(world, &hash)) &&
+           TIMED(asked->pieces, kiriSheet_GetPiece(world, sheet, 0, &piece)) &&
+           TIMED(asked->nextPieces, kiriSheet_GetPiece(world, sheet, 0, &piece)) &&
+           TIMED(asked->ray, kiriSheet_Raycast(world, sheet, above, down, 10.0f, &hit)) &&
+           kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK &&
+           TIMED(asked->nextRay, kiriSheet_Raycast(world, sheet, above, down, 10.0f, &hit)) && hit.triangle >= 0 &&
+           TIMED(asked->slice, kiriSheet_Slice(world, sheet, blade, &cut));
 }
 
 static bool BenchAsked(void)
@@ -294,14 +259,8 @@ static bool BenchAsked(void)
         memset(&asked, 0, sizeof asked);
         double vertices = (double)(squares[i] + 1) * (squares[i] + 1);
         fine = Ask(squares[i], &asked);
-        Table_Number(&table, vertices);
-        Table_Number(&table, asked.hash);
-        Table_Number(&table, 1e6 * asked.hash / vertices);
-        Table_Number(&table, asked.pieces);
-        Table_Number(&table, asked.nextPieces);
-        Table_Number(&table, asked.ray);
-        Table_Number(&table, asked.nextRay);
-        Table_Number(&table, asked.slice);
+        TABLE_NUMBERS(&table, vertices, asked.hash, 1e6 * asked.hash / vertices, asked.pieces, asked.nextPieces,
+                      asked.ray, asked.nextRay, asked.slice);
         fflush(stdout);
     }
     return Table_Stop(&table) && fine;
@@ -311,8 +270,5 @@ int main(void)
 {
     Bench_WeighClock();
     bool fine = BenchSizes() && BenchFrames() && BenchCrowds() && BenchAsked();
-    if (!fine) {
-        fprintf(stderr, "bench_create: something failed\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_create: something failed");
 }

@@ -164,14 +164,8 @@ static bool Compare(Table* table, const Feature* feature)
         Series_Add(&cut, used.cut / plain.cut);
     }
     Table_Text(table, feature->name);
-    Table_Number(table, used.frames);
-    Table_Number(table, 1e3 * plain.tick);
-    Table_Number(table, Series_Median(&tick));
-    Table_Number(table, Series_Quantile(&tick, 0.0));
-    Table_Number(table, Series_Worst(&tick));
-    Table_Number(table, Series_Median(&cut));
-    Table_Number(table, plain.bytes / 1024.0);
-    Table_Number(table, used.bytes / plain.bytes);
+    TABLE_NUMBERS(table, used.frames, 1e3 * plain.tick, Series_Median(&tick), Series_Quantile(&tick, 0.0),
+                  Series_Worst(&tick), Series_Median(&cut), plain.bytes / 1024.0, used.bytes / plain.bytes);
     Series_Free(&tick);
     Series_Free(&cut);
     return true;

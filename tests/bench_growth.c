@@ -87,17 +87,13 @@ static void PrintSize(Table* table, const Size* size, CommitTimes times[2], doub
     double median = Series_Median(&times[0].all), scratch = Series_Median(&times[1].all);
     *reference = size->grid == 64 ? median : *reference;
     double growth = median / *reference;
-    Table_Number(table, size->grid);
-    Table_Number(table, size->grid * size->grid / CELLS_A_FRAME);
+    TABLE_NUMBERS(table, size->grid, size->grid * size->grid / CELLS_A_FRAME);
     for (int32_t k = 0; k <= KIRI_STAGE_CONSTANTS; k++) {
         Table_Number(table, Series_Median(&times[0].stage[k]));
     }
-    Table_Number(table, median);
-    Table_Number(table, times[0].first);
-    Table_Number(table, Series_Median(&times[0].items));
+    TABLE_NUMBERS(table, median, times[0].first, Series_Median(&times[0].items));
     Table_Judge(table, growth, !(growth > 1.5));
-    Table_Number(table, scratch);
-    Table_Number(table, scratch / median);
+    TABLE_NUMBERS(table, scratch, scratch / median);
 }
 
 static bool BenchGrowth(void)
@@ -199,17 +195,11 @@ static void PrintLoad(Table* table, const Load* load, LoadTimes* times)
 {
     double all = Series_Median(&times->all), skin = Series_Median(&times->skin), copy = Series_Median(&times->copy);
     int32_t vertices = (load->squares + 1) * (load->squares + 1);
-    Table_Number(table, vertices);
-    Table_Number(table, load->frames);
-    Table_Number(table, load->sheets);
+    TABLE_NUMBERS(table, vertices, load->frames, load->sheets);
     Table_Text(table, load->asleep ? "yes" : "no");
-    Table_Number(table, all);
-    Table_Number(table, Series_Worst(&times->all));
-    Table_Number(table, Series_Median(&times->solve));
-    Table_Number(table, skin);
-    Table_Number(table, copy);
-    Table_Number(table, load->asleep ? (double)NAN : 100.0 * copy / skin);
-    Table_Number(table, load->asleep ? (double)NAN : 1e6 * skin / vertices / load->sheets);
+    TABLE_NUMBERS(table, all, Series_Worst(&times->all), Series_Median(&times->solve), skin, copy,
+                  load->asleep ? (double)NAN : 100.0 * copy / skin,
+                  load->asleep ? (double)NAN : 1e6 * skin / vertices / load->sheets);
 }
 
 static bool BenchLoads(void)
@@ -242,8 +232,5 @@ int main(void)
 {
     Bench_WeighClock();
     bool fine = BenchGrowth() && BenchLoads();
-    if (!fine) {
-        fprintf(stderr, "bench_growth: something failed\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_growth: something failed");
 }

@@ -314,9 +314,8 @@ static void Report(Table* table, const char* name, const char* moment, const cha
     Table_Text(table, name);
     Table_Text(table, moment);
     Table_Text(table, skinning);
-    Table_Number(table, frames);
-    Table_Number(table, 100.0 * Samples_Above(&seen->strain, 0.05));
-    Table_Number(table, 100.0 * Samples_Above(&seen->strain, 0.15));
+    TABLE_NUMBERS(table, frames, 100.0 * Samples_Above(&seen->strain, 0.05),
+                  100.0 * Samples_Above(&seen->strain, 0.15));
     Table_Judge(table, 100.0 * strain, strain < 0.05);
     Table_Judge(table, lip, lip < 2.0);
     Table_Number(table, Samples_Quantile(&seen->lip, 0.99));
@@ -333,8 +332,9 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; skinning++) {
         Seen seen = { 0 };
         sheet->seen.surface.skinning = skinning;
-        kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count,
-                               sheet->links.links.data, sheet->links.links.count, NULL, NULL);
+        const kiriPulls pulls = { sheet->links.links.data, sheet->links.links.count,
+                                  sheet->settings.mechanics.model == KIRI_MODEL_LINKS, &sheet->settings.material };
+        kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, &pulls, NULL, NULL);
         sheet->seen.surface.isWritten = false;
         kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, 0, sheet->seen.surface.vertexCount);
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);

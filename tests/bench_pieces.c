@@ -103,14 +103,8 @@ static bool Measure(Table* table, const Case* c)
     fine = fine && TimeDropping(&bed, &drop, &dropped);
     double plain = Series_Median(&tick);
     Table_Text(table, c->name);
-    Table_Number(table, plain);
-    Table_Number(table, Series_Median(&detach));
-    Table_Number(table, Series_Median(&detach) / plain);
-    Table_Number(table, Series_Median(&destroy));
-    Table_Number(table, Series_Median(&destroy) / plain);
-    Table_Number(table, dropped);
-    Table_Number(table, drop);
-    Table_Number(table, drop / plain);
+    TABLE_NUMBERS(table, plain, Series_Median(&detach), Series_Median(&detach) / plain, Series_Median(&destroy),
+                  Series_Median(&destroy) / plain, dropped, drop, drop / plain);
     Series_Free(&tick);
     Series_Free(&detach);
     Series_Free(&destroy);

@@ -14,7 +14,7 @@ typedef struct Jumps {
     double cell, jump, sum, fade; /* jumps and ways in cells */
 } Jumps;
 
-static kiriSheetData* SheetOf(const Jumps* jumps)
+static kiriSheetData* SeenSheet(const Jumps* jumps)
 {
     return jumps->probe.host.world->sheets.data[0];
 }
@@ -22,7 +22,7 @@ static kiriSheetData* SheetOf(const Jumps* jumps)
 static void Record(Probe* probe)
 {
     Jumps* jumps = (Jumps*)probe;
-    double jump = Probe_SeenJump(SheetOf(jumps), jumps->at) / jumps->cell;
+    double jump = Probe_SeenJump(SeenSheet(jumps), jumps->at) / jumps->cell;
     jumps->jump = fmax(jumps->jump, jump);
     jumps->sum += jump;
 }
@@ -30,7 +30,7 @@ static void Record(Probe* probe)
 /* Where vertices are; with room for as many as a tick may add. */
 static void Remember(Jumps* jumps)
 {
-    const kiriSurface* surface = &SheetOf(jumps)->seen.surface;
+    const kiriSurface* surface = &SeenSheet(jumps)->seen.surface;
     if (jumps->room < surface->vertexCount + 10000) {
         jumps->room = 2 * surface->vertexCount + 20000;
         free(jumps->at);
@@ -51,7 +51,7 @@ static void Measure(Jumps* jumps, const SceneType* type, int way)
     jumps->probe.host.world = scene.world;
     jumps->probe.sheet = scene.sheet;
     jumps->probe.record = Record;
-    jumps->cell = SheetOf(jumps)->grid.side;
+    jumps->cell = SeenSheet(jumps)->grid.side;
     for (int32_t tick = 0; tick < type->ticks; ++tick) {
         kiriProfile profile;
         Remember(jumps);

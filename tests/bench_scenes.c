@@ -1,12 +1,12 @@
 /* The scenes of the paper, and others: ticks a second, milliseconds of each stage, and what a cut touches, beside the
-   paper's own numbers. Each scene runs several times, by turns as cuts usually do, rebuilding all from scratch, and
-   without what it has beyond rigid frames in space. What a tick takes is the median over the runs. */
+   paper's own numbers. Each scene runs several times, by turns as cuts usually do and rebuilding all from scratch. What
+   a tick takes is the median over the runs. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "../samples/scene.h"
 #include "bench.h"
 
-enum { INCREMENTAL, SCRATCH, PLAIN, MODES, RUNS = 3, MAX_TICKS = 1024 };
+enum { INCREMENTAL, SCRATCH, MODES, RUNS = 3, MAX_TICKS = 1024 };
 enum { BEFORE, CUTTING, PAUSE, AFTER }; /* a pause: blades move, and no cut takes effect */
 
 /* What is timed of a tick, in milliseconds beside the last: the stages, and then. */
@@ -23,19 +23,17 @@ typedef struct Paper {
     /* Of our blade, so that it changes the paper's share of cells; 0: its own. Where it changes more at any
        pace, since a point cuts into one cell at least: the paper's share by ours. */
     float pace;
-
-    const char* feature; /* what is off in the mode PLAIN; null: that mode is left out */
 } Paper;
 
 static const Paper papers[] = {
-    { "spiral", { 60, 14.4, 60 }, { 0.07, 28.1, 61.5, 27.2, 41.3 }, 0.32f, NULL },
-    { "kirigami", { 11.3, 3.2, 10.9 }, { 1.06, 15.9, 17.8, 15.8, 20.3 }, 15.5f, NULL },
-    { "patchwork", { 60, 6.8, 45 }, { 0.02, 2.78, 4.33, 2.55, 7.15 }, 0.19f, NULL },
-    { "vortex", { 45, 7.2, 35.7 }, { 0.08, 10.3, 12.8, 9.2, 24.2 }, 1.15f, NULL },
-    { "fallingguy", { 60, 8.2, 60 }, { 0.09, 5.84, 11.4, 5.77, 14.9 }, 0.75f, NULL },
-    { "bunny", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f, NULL },
-    { "rubber", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f, "affine" },
-    { "flat", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f, "planar" },
+    { "spiral", { 60, 14.4, 60 }, { 0.07, 28.1, 61.5, 27.2, 41.3 }, 0.32f },
+    { "kirigami", { 11.3, 3.2, 10.9 }, { 1.06, 15.9, 17.8, 15.8, 20.3 }, 15.5f },
+    { "patchwork", { 60, 6.8, 45 }, { 0.02, 2.78, 4.33, 2.55, 7.15 }, 0.19f },
+    { "vortex", { 45, 7.2, 35.7 }, { 0.08, 10.3, 12.8, 9.2, 24.2 }, 1.15f },
+    { "fallingguy", { 60, 8.2, 60 }, { 0.09, 5.84, 11.4, 5.77, 14.9 }, 0.75f },
+    { "bunny", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f },
+    { "rubber", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f },
+    { "flat", { NAN, NAN, NAN }, { NAN, NAN, NAN, NAN, NAN }, 0.0f },
 };
 enum { PAPERS = sizeof papers / sizeof papers[0] };
 
@@ -43,7 +41,6 @@ enum { PAPERS = sizeof papers / sizeof papers[0] };
 typedef struct Facts {
     kiriProfile profile;
     kiriCounts counts;
-    int64_t allocations;
 } Facts;
 
 typedef struct Recording {
@@ -52,7 +49,6 @@ typedef struct Recording {
     int32_t grid;
     Facts facts[MAX_TICKS];
     uint64_t hash[MODES];
-    int64_t bytes[MODES]; /* the most that was allocated at a time */
     float times[MODES][MAX_TICKS][QUANTITIES][RUNS];
     double shares[SHARES]; /* mean % updated at the paper's pace */
 } Recording;
@@ -60,36 +56,6 @@ typedef struct Recording {
 static Recording recordings[PAPERS];
 
 /* ---- Recording --------------------------------------------------------------------------------------------------- */
-
-/* What the allocator is asked for. */
-typedef struct Usage {
-    int64_t calls, bytes, mostBytes;
-} Usage;
-
-enum { HEADER = 16 }; /* before each block: its size; as much as keeps the block aligned */
-
-static void* CountAlloc(void* user, int64_t bytes)
-{
-    Usage* usage = user;
-    char* block = malloc(HEADER + (size_t)bytes);
-    if (block == NULL) {
-        return NULL;
-    }
-    *(int64_t*)block = bytes;
-    usage->calls++;
-    usage->bytes += bytes;
-    usage->mostBytes = usage->bytes > usage->mostBytes ? usage->bytes : usage->mostBytes;
-    return block + HEADER;
-}
-
-static void CountFree(void* user, void* pointer)
-{
-    if (pointer != NULL) {
-        char* block = (char*)pointer - HEADER;
-        ((Usage*)user)->bytes -= *(int64_t*)block;
-        free(block);
-    }
-}
 
 static double CommitOf(const kiriProfile* profile)
 {
@@ -118,20 +84,15 @@ static void Note(Recording* recording, int mode, int run, int32_t tick, double s
 static bool Record(Recording* recording, int mode, int run)
 {
     const SceneType* type = recording->type;
-    const SceneOptions options = { .asPaper = true, .fromScratch = mode == SCRATCH, .plain = mode == PLAIN };
-    Usage usage = { .calls = 0 };
+    const SceneOptions options = { .asPaper = true, .fromScratch = mode == SCRATCH };
     kiriWorldDef def = Bench_WorldDef();
-    def.alloc = CountAlloc;
-    def.free = CountFree;
-    def.user = &usage;
     SCOPED(Scene, scene, Scene_Stop);
     bool fine = type->ticks <= MAX_TICKS && Scene_Start(&scene, type, &def, &options);
     for (int32_t i = 0; fine && i < type->ticks; i++) {
-        Facts facts = { .allocations = -usage.calls };
+        Facts facts;
         double start = Bench_Clock(NULL);
         fine = Scene_Tick(&scene) >= 0;
         double seconds = Bench_Clock(NULL) - start;
-        facts.allocations += usage.calls;
         kiriWorld_GetProfile(scene.world, &facts.profile);
         kiriSheet_GetCounts(scene.world, scene.sheet, &facts.counts);
         Note(recording, mode, run, i, seconds, &facts);
@@ -140,7 +101,6 @@ static bool Record(Recording* recording, int mode, int run)
         }
     }
     recording->grid = scene.gridResolution;
-    recording->bytes[mode] = usage.mostBytes;
     fine = fine && kiriWorld_GetStateHash(scene.world, &recording->hash[mode]) == KIRI_OK;
     return fine;
 }
@@ -186,8 +146,7 @@ static bool RecordAll(Recording* recording, const Paper* paper)
     recording->paper = paper;
     recording->type = Scene_FindType(paper->scene);
     for (int run = 0; fine && run < RUNS; run++) {
-        fine = Record(recording, INCREMENTAL, run) && Record(recording, SCRATCH, run) &&
-               (paper->feature == NULL || Record(recording, PLAIN, run));
+        fine = Record(recording, INCREMENTAL, run) && Record(recording, SCRATCH, run);
     }
     fine = fine && (paper->pace == 0.0f || RecordPaced(recording));
     if (fine && recording->hash[INCREMENTAL] != recording->hash[SCRATCH]) {
@@ -392,78 +351,6 @@ static bool PrintShares(void)
     return Table_Stop(&table);
 }
 
-/* Mean and worst over the ticks of a phase, from the first one on. */
-static void PrintCalls(Table* table, const Recording* recording, int phase, int32_t from)
-{
-    SCOPED(Series, series, Series_Free);
-    for (int32_t i = from; i < recording->type->ticks; i++) {
-        if (PhaseOf(recording, i) == phase) {
-            Series_Add(&series, (double)recording->facts[i].allocations);
-        }
-    }
-    Table_Judge(table, Series_Mean(&series), phase == CUTTING || Series_Worst(&series) == 0.0);
-    Table_Number(table, Series_Worst(&series));
-}
-
-static bool PrintAllocations(void)
-{
-    static const char* const columns[] = { "scene       ", "before", "worst", "cutting", "worst",
-                                           "late",         "worst",  "after", "worst",   NULL };
-    Table table;
-    if (!Table_Start(
-            &table, "allocations",
-            "Calls of the allocator a tick, mean and worst: before (but for the first tick), with cuts, with cuts "
-            "in the last quarter of\nthe way, after. Aim: none without a cut.",
-            columns)) {
-        return false;
-    }
-    for (int s = 0; s < PAPERS; s++) {
-        const SceneType* type = recordings[s].type;
-        Table_Text(&table, type->name);
-        PrintCalls(&table, &recordings[s], BEFORE, 1);
-        PrintCalls(&table, &recordings[s], CUTTING, 0);
-        PrintCalls(&table, &recordings[s], CUTTING, (type->firstCut + 3 * type->lastCut) / 4);
-        PrintCalls(&table, &recordings[s], AFTER, 0);
-    }
-    return Table_Stop(&table);
-}
-
-/* Medians of the ticks before, with and after cuts; memory; and by how many times each is more than in the mode
-   PLAIN. */
-static void PrintModeRow(Table* table, const Recording* recording, const char* name, int mode, bool ratio)
-{
-    static const int phases[3] = { BEFORE, CUTTING, AFTER };
-    Table_Text(table, recording->paper->scene);
-    Table_Text(table, name);
-    for (int i = 0; i < 3; i++) {
-        SCOPED_AS(Series, own, Series_Free) = TimesOf(recording, mode, phases[i], phases[i], ALL);
-        SCOPED_AS(Series, plain, Series_Free) = TimesOf(recording, PLAIN, phases[i], phases[i], ALL);
-        Table_Number(table, ratio ? Series_Median(&own) / Series_Median(&plain) : Series_Median(&own));
-    }
-    double bytes = (double)recording->bytes[mode];
-    Table_Number(table, ratio ? bytes / (double)recording->bytes[PLAIN] : 1e-6 * bytes);
-}
-
-static bool PrintFeatures(void)
-{
-    static const char* const columns[] = { "scene     ", "mode  ", "before", "cutting", "after", "MB", NULL };
-    Table table;
-    if (!Table_Start(&table, "models",
-                     "What scenes have beyond rigid frames in space: ms of a tick before, with and after cuts, median, "
-                     "and the most memory at a\ntime; the same with rigid frames in space; the first by the second.",
-                     columns)) {
-        return false;
-    }
-    for (int s = 0; s < PAPERS; s++) {
-        if (papers[s].feature != NULL) {
-            PrintModeRow(&table, &recordings[s], papers[s].feature, INCREMENTAL, false);
-            PrintModeRow(&table, &recordings[s], "plain", PLAIN, false);
-            PrintModeRow(&table, &recordings[s], "times", INCREMENTAL, true);
-        }
-    }
-    return Table_Stop(&table);
-}
-
 int main(void)
 {
     Bench_WeighClock();
@@ -475,6 +362,6 @@ int main(void)
     for (int s = 0; fine && s < PAPERS; s++) {
         fine = PrintStages(&recordings[s]);
     }
-    fine = fine && PrintFeatures() && PrintShares() && PrintAllocations();
+    fine = fine && PrintShares();
     return fine ? 0 : 1;
 }

@@ -106,12 +106,7 @@ static bool Measure(Table* table, const Case* c)
     alone.resolution = 4;
     double one = TimeTicks(&alone, speed, 1, &few, &none), each = 1e3 * (rest - one) / asleep;
     Table_Text(table, c->name);
-    Table_Number(table, pieces);
-    Table_Number(table, asleep);
-    Table_Number(table, all);
-    Table_Number(table, rest);
-    Table_Number(table, one);
-    Table_Number(table, 1e3 * (all - one) / pieces);
+    TABLE_NUMBERS(table, pieces, asleep, all, rest, one, 1e3 * (all - one) / pieces);
     Table_Judge(table, each, each < 0.05);
     return !isnan(all) && !isnan(rest) && !isnan(one);
 }

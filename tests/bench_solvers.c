@@ -107,16 +107,12 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
 static void PrintSolver(Table* table, const kiriSolver* solver, const char* name, const SolverTimes* times,
                         const SolverTimes* ours, double error)
 {
-    Table_Number(table, kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix));
-    Table_Number(table, solver->size);
+    TABLE_NUMBERS(table, kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix), solver->size);
     Table_Text(table, name);
-    Table_Number(table, 1e3 * times->analyse);
-    Table_Number(table, 1e3 * times->factor);
-    Table_Number(table, 1e3 * times->solve);
-    Table_Number(table, 1e6 * (times->factor + times->solve) / kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix));
-    Table_Number(table, (times->factor + times->solve) / (ours->factor + ours->solve));
-    Table_Number(table, times->rounds > 0 ? times->rounds : (double)NAN);
-    Table_Number(table, log10(error));
+    TABLE_NUMBERS(table, 1e3 * times->analyse, 1e3 * times->factor, 1e3 * times->solve,
+                  1e6 * (times->factor + times->solve) / kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix),
+                  (times->factor + times->solve) / (ours->factor + ours->solve),
+                  times->rounds > 0 ? times->rounds : (double)NAN, log10(error));
 }
 
 static bool BenchSolvers(Table* table, kiriSolver* solver)
@@ -173,8 +169,5 @@ int main(void)
                BenchSolvers(&table, world->sheets.data[0]->solver);
     }
     fine = Table_Stop(&table) && fine;
-    if (!fine) {
-        fprintf(stderr, "bench_solvers: something failed\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_solvers: something failed");
 }

@@ -117,19 +117,14 @@ static bool PrintStorm(Table* table, Storm* storm)
                                     storm->budget.iterations };
     double median = Series_Median(&storm->times), worst = Series_Worst(&storm->times);
     bool fine = true;
-    Table_Number(table, storm->milliseconds);
-    Table_Number(table, median);
-    Table_Number(table, Series_Quantile(&storm->times, 0.95));
-    Table_Number(table, worst);
-    Table_Number(table, worst / median);
+    TABLE_NUMBERS(table, storm->milliseconds, median, Series_Quantile(&storm->times, 0.95), worst, worst / median);
     for (int k = 0; k < ITEMS; k++) {
         bool within = IsWithin(storm->most[k], budget[k]);
         Table_Judge(table, storm->most[k], within);
         Table_Number(table, budget[k] > 0 ? budget[k] : (double)NAN);
         fine = fine && within;
     }
-    Table_Number(table, storm->sum.commits);
-    Table_Number(table, storm->done);
+    TABLE_NUMBERS(table, storm->sum.commits, storm->done);
     return fine;
 }
 
@@ -175,8 +170,5 @@ int main(void)
     Table table;
     Bench_WeighClock();
     bool fine = Table_Start(&table, "storm", title, columns) && BenchStorms(&table) && Table_Stop(&table);
-    if (!fine) {
-        fprintf(stderr, "bench_storm: more work than the budget allows, other triangles than without, or an error\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_storm: more work than the budget allows, other triangles than without, or an error");
 }

@@ -123,13 +123,8 @@ static bool BenchSwipe(Table* table, const Swipe* swipe)
     }
     if (fine) {
         double late = TICK_MS * runs[0].late, most = 1.5 * BUDGET_MS + runs[0].plain;
-        Table_Number(table, (swipe->squares + 1.0) * (swipe->squares + 1.0));
-        Table_Number(table, swipe->frames);
-        Table_Number(table, swipe->ticks);
-        Table_Number(table, budget.triangles);
-        Table_Number(table, budget.cells);
-        Table_Number(table, budget.samples);
-        Table_Number(table, runs[0].late);
+        TABLE_NUMBERS(table, (swipe->squares + 1.0) * (swipe->squares + 1.0), swipe->frames, swipe->ticks,
+                      budget.triangles, budget.cells, budget.samples, runs[0].late);
         Table_Judge(table, floor(late + 0.5), !(late > swipe->aimMs + 1.0));
         Table_Number(table, runs[0].plain);
         Table_Judge(table, worst, worst <= most);
@@ -156,8 +151,5 @@ int main(void)
         fine = BenchSwipe(&table, &swipes[i]);
     }
     fine = Table_Stop(&table) && fine;
-    if (!fine) {
-        fprintf(stderr, "bench_swipe: a cut that does not part, or an error\n");
-    }
-    return fine ? 0 : 1;
+    return Bench_End(fine, "bench_swipe: a cut that does not part, or an error");
 }

@@ -114,8 +114,7 @@ static bool BenchRow(Table* table, const Row* row)
         means[workers] = MeanOf(seconds[workers]);
     }
     Table_Text(table, row->name);
-    Table_Number(table, row->sheets);
-    Table_Number(table, row->sheets * (row->squares + 1) * (row->squares + 1));
+    TABLE_NUMBERS(table, row->sheets, row->sheets * (row->squares + 1) * (row->squares + 1));
     for (int workers = 0; workers <= MOST_WORKERS; workers++) {
         Table_Number(table, 1e3 * means[workers]);
     }

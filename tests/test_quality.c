@@ -1,8 +1,8 @@
 #include "support.h"
 #include "sweep.h"
 
-/* Not as fine as the one of `make accuracy`: a thousandth off is near enough here. */
-static const Setting referenceSetting = { SWEEP_STRIP, 33, 1, 80, 2, 64, 1, KIRI_MODEL_LINKS, 0 };
+/* A thousandth off is near enough here. */
+static const Setting referenceSetting = { SWEEP_STRIP, 33, 1, 80, 2, 64, 0 };
 
 static Setting settings[SWEEP_SETTINGS];
 static Outcome outcomes[SWEEP_SETTINGS];
@@ -10,10 +10,10 @@ static int settingCount;
 
 SETUP
 {
-    settingCount = Sweep_Settings(SWEEP_STRIP, settings, true);
+    settingCount = Sweep_Settings(settings);
     bool ok = Sweep_Prepare(&referenceSetting);
     for (int i = 0; i < settingCount && ok; ++i) {
-        ok = Sweep_Run(&settings[i], NULL, &outcomes[i]);
+        ok = Sweep_Run(&settings[i], &outcomes[i]);
     }
     assert_true(ok);
 }
@@ -24,7 +24,7 @@ static Outcome RunPreset(int32_t preset, Setting* setting)
     Outcome outcome;
     assert_int_equal(kiriGetQuality(preset, &quality), KIRI_OK);
     *setting = Sweep_FromQuality(SWEEP_STRIP, &quality);
-    assert_true(Sweep_Run(setting, NULL, &outcome));
+    assert_true(Sweep_Run(setting, &outcome));
     return outcome;
 }
 
@@ -33,7 +33,7 @@ TEST(ReferenceIsConverged)
     Setting half = referenceSetting;
     Outcome outcome;
     half.substeps /= 2;
-    assert_true(Sweep_Run(&half, NULL, &outcome));
+    assert_true(Sweep_Run(&half, &outcome));
     assert_true(outcome.error > 0.0 && outcome.error < 0.001);
 }
 
@@ -79,22 +79,22 @@ TEST(ErrorsAreAsDocumented)
         double error[2];
         assert_int_equal(kiriGetQuality(p, &quality), KIRI_OK);
         Setting setting = Sweep_FromQuality(SWEEP_STRIP, &quality);
-        assert_true(Sweep_Range(&setting, false, error));
+        assert_true(Sweep_Range(&setting, error));
         CheckErrors(p, error);
     }
 }
 
-/* The most accurate one is as fine as the reference here, and left to `make accuracy`. */
+/* The most accurate one is as fine as the reference here, and left to `make trade`. */
 TEST(ErrorsInTwoDimensions)
 {
-    static const Setting fine = { SWEEP_SQUARE, 9, 9, 60, 1, 16, 1, KIRI_MODEL_LINKS, 0 };
+    static const Setting fine = { SWEEP_SQUARE, 9, 9, 60, 1, 16, 0 };
     assert_true(Sweep_Prepare(&fine));
     for (int32_t p = 0; p < KIRI_QUALITY_ACCURATE; ++p) {
         kiriQuality quality;
         Outcome outcome;
         assert_int_equal(kiriGetQuality(p, &quality), KIRI_OK);
         Setting setting = Sweep_FromQuality(SWEEP_SQUARE, &quality);
-        assert_true(setting.columns == setting.rows && Sweep_Run(&setting, NULL, &outcome));
+        assert_true(setting.columns == setting.rows && Sweep_Run(&setting, &outcome));
         const double error[2] = { outcome.error, outcome.error };
         CheckErrors(p, error);
     }
