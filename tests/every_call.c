@@ -42,22 +42,15 @@ static const kiriTearing tearing = { 200.0f, { 1.0f, 0.5f }, 2.0f, 1.0f, 3 };
 static const kiriFold fold = { { 0.0f, 0.3f }, { 1.0f, 0.3f }, 1e-3f, 0.5f, 0.0f };
 
 /* What Stand_Start makes for all stands: a save and a snapshot of the world before its cuts. */
-static void* kept[2];
-static int64_t keptBytes[2];
-
-typedef kiriResult StoreFn(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+static Bytes kept[2];
 
 static const void* Store(const kiriWorld* world, int k, int64_t* bytes)
 {
-    StoreFn* store = k == 0 ? kiriWorld_Save : kiriWorld_Snapshot;
-    if (kept[k] == NULL) {
-        OK(store(world, NULL, 0, &keptBytes[k]));
-        kept[k] = malloc((size_t)keptBytes[k]);
-        assert_non_null(kept[k]);
-        OK(store(world, kept[k], keptBytes[k], &keptBytes[k]));
+    if (kept[k].data == NULL) {
+        kept[k] = World_Write(world, k == 0 ? kiriWorld_Save : kiriWorld_Snapshot);
     }
-    *bytes = keptBytes[k];
-    return kept[k];
+    *bytes = kept[k].size;
+    return kept[k].data;
 }
 
 /* A frame of the second piece, without the lists of pieces: a call is to make them. */
@@ -169,11 +162,16 @@ static void AddThings(Stand* s)
 
 void Stand_Start(Stand* s, kiriRecordFn* record)
 {
-    static const float strip[4] = { -0.1f, 0.22f, 1.1f, 0.25f }, start[4] = { 0.3f, 0.8f, 0.4f, 0.7f };
     memset(s, 0, sizeof(*s));
     kiriWorldDef def = Tape_Def(&s->tape);
     def.record = record;
-    OK(kiriCreateWorld(&def, &s->tape.host.world));
+    Stand_StartBy(s, &def);
+}
+
+void Stand_StartBy(Stand* s, const kiriWorldDef* def)
+{
+    static const float strip[4] = { -0.1f, 0.22f, 1.1f, 0.25f }, start[4] = { 0.3f, 0.8f, 0.4f, 0.7f };
+    OK(kiriCreateWorld(def, &s->tape.host.world));
     kiriWorld* world = s->tape.host.world;
     Given* g = &s->given;
     FillValues(s);

@@ -178,6 +178,9 @@ typedef struct Stand {
 
 /* record: null, or the hook that gets all calls. */
 void Stand_Start(Stand* stand, kiriRecordFn* record);
+
+/* Starts a stand of zeros with a def by Tape_Def. */
+void Stand_StartBy(Stand* stand, const kiriWorldDef* def);
 void Stand_Stop(Stand* stand);
 
 #define START_STAND(name)                                                                                              \

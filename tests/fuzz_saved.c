@@ -8,37 +8,11 @@
 
 enum { MOST_HELD = 256 << 20, MOST_OF_LOAD = 64 << 20 }; /* saves have some hundred thousand bytes */
 
-/* ---- A host that counts ---- */
-
-static void* Allocate(void* user, int64_t bytes)
+kiriWorldDef SavedHost_Def(Host* host)
 {
-    SavedHost* host = user;
-    int64_t* block = host->held + bytes <= MOST_HELD ? malloc((size_t)bytes + 16) : NULL;
-    if (block == NULL) {
-        host->refused += 1;
-        return NULL;
-    }
-    host->held += bytes;
-    host->most = host->held > host->most ? host->held : host->most;
-    *block = bytes;
-    return memset(block + 2, 0xcd, (size_t)bytes);
-}
-
-static void Free(void* user, void* pointer)
-{
-    if (pointer != NULL) {
-        int64_t* block = (int64_t*)pointer - 2;
-        ((SavedHost*)user)->held -= *block;
-        free(block);
-    }
-}
-
-kiriWorldDef SavedHost_Def(SavedHost* host)
-{
-    kiriWorldDef def = DefaultWorld();
-    def.alloc = Allocate;
-    def.free = Free;
-    def.user = host;
+    *host = (Host){ .failAt = -1, .room = MOST_HELD };
+    kiriWorldDef def = Host_Def(host);
+    def.log = NULL;
     return def;
 }
 
@@ -92,7 +66,7 @@ static void AddSmallSheet(Storm* storm, int32_t squares, int32_t grid)
 }
 
 /* Storms of all types; the later ones have so little budget that each stage of the work on a cut is caught half way. */
-static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
+static void StartStorm(Storm* storm, int32_t index, Host* host)
 {
     static const kiriBudget budgets[] = { { 64, 5, 3, 2 }, { 64, 60, 2, 0 }, { 200, 15, 20, 0 }, { 64, 150, 60, 8 } };
     kiriWorldDef def = SavedHost_Def(host);
@@ -116,7 +90,7 @@ const Saved* Saved_Get(int32_t index)
 {
     Saved* saved = &worlds[index];
     if (saved->base.bytes == NULL) {
-        SavedHost host = { 0 };
+        Host host;
         StartStorm(&saved->storm, index, &host);
         for (int32_t tick = 0; tick < (index < SAVED_LARGE ? 3 + index / 4 : 3); ++tick) {
             Storm_Tick(&saved->storm);
@@ -201,7 +175,7 @@ void Saved_GoOn(Storm* storm)
     }
 }
 
-static void CheckRefused(kiriWorld* world, kiriResult result, const SavedHost* host, uint64_t before)
+static void CheckRefused(kiriWorld* world, kiriResult result, const Host* host, uint64_t before)
 {
     uint64_t after = 0;
     FUZZ_CHECK(result == KIRI_ERROR_DATA || (result == KIRI_ERROR_MEMORY && host->refused > 0),
@@ -210,7 +184,7 @@ static void CheckRefused(kiriWorld* world, kiriResult result, const SavedHost* h
     FUZZ_CHECK(before == after, "a load that failed has changed the world");
 }
 
-static kiriWorld* StartWorld(SavedHost* host, uint64_t* hash)
+static kiriWorld* StartWorld(Host* host, uint64_t* hash)
 {
     kiriWorld* world = NULL;
     kiriWorldDef def = SavedHost_Def(host);
@@ -219,20 +193,20 @@ static kiriWorld* StartWorld(SavedHost* host, uint64_t* hash)
     return world;
 }
 
-static void StopWorld(kiriWorld* world, const SavedHost* host)
+static void StopWorld(kiriWorld* world, const Host* host)
 {
     kiriDestroyWorld(world);
-    FUZZ_CHECK(host->held == 0, "%lld bytes leak", (long long)host->held);
+    FUZZ_CHECK(host->bytes == 0, "%lld bytes leak", (long long)host->bytes);
 }
 
 void Saved_Try(const Save* save, const Storm* from)
 {
     Storm storm = *from;
-    SavedHost host = { 0 };
+    Host host;
     uint64_t before = 0;
     storm.world = StartWorld(&host, &before);
     kiriResult result = kiriWorld_Load(storm.world, save->bytes, save->size);
-    FUZZ_CHECK(host.most <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.most);
+    FUZZ_CHECK(host.peak <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.peak);
     if (result == KIRI_OK) {
         Saved_GoOn(&storm);
     } else {
@@ -243,10 +217,10 @@ void Saved_Try(const Save* save, const Storm* from)
 
 void Saved_Refuse(kiriResult load(kiriWorld* world, const void* context), const void* context)
 {
-    SavedHost host = { 0 };
+    Host host;
     uint64_t before = 0;
     kiriWorld* world = StartWorld(&host, &before);
     CheckRefused(world, load(world, context), &host, before);
-    FUZZ_CHECK(host.most <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.most);
+    FUZZ_CHECK(host.peak <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.peak);
     StopWorld(world, &host);
 }

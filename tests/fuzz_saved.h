@@ -4,18 +4,15 @@
 #define KIRI_TEST_FUZZ_SAVED_H
 
 #include "fuzz.h"
+#include "host.h"
 #include "storm.h"
 
 /* Those from SAVED_LARGE on have triangles that are large for the grid. */
 enum { SAVED_LARGE = 96, SAVED_WORLDS = 98 };
 enum { SAVED_HEAD_BYTES = 24, SAVED_SUM_BYTES = 8 };
 
-/* Refuses memory where it would hold too much. */
-typedef struct SavedHost {
-    int64_t held, most, refused; /* bytes; and how often it refused */
-} SavedHost;
-
-kiriWorldDef SavedHost_Def(SavedHost* host);
+/* A host without a log that refuses memory where it would hold too much. */
+kiriWorldDef SavedHost_Def(Host* host);
 
 typedef struct Save {
     uint8_t* bytes;

@@ -25,6 +25,8 @@ typedef struct Host {
     int64_t failAt;  /* the call that gets null; negative: none */
     bool failOnce;   /* or all calls from there on */
     int64_t most;    /* bytes that a block may have; 0: no limit */
+    int64_t room;    /* bytes that all may have; 0: no limit */
+    int64_t peak;    /* the most bytes that were out */
     int64_t failEvery; /* each so many calls one gets null; 0: none */
     int64_t refused; /* calls that got null */
     uint8_t
@@ -45,7 +47,7 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
 {
     Host* host = user;
     int64_t call = host->calls++;
-    bool isTooLarge = host->most > 0 && bytes > host->most,
+    bool isTooLarge = (host->most > 0 && bytes > host->most) || (host->room > 0 && host->bytes + bytes > host->room),
          isTurn = host->failEvery > 0 && call % host->failEvery == host->failEvery - 1;
     if (isTooLarge || isTurn || (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt))) {
         ++host->refused;
@@ -55,6 +57,7 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
     assert_non_null(block);
     block->bytes = bytes;
     host->bytes += bytes;
+    host->peak = host->bytes > host->peak ? host->bytes : host->peak;
     ++host->live;
     return memset(block + 1, 0xcd ^ host->poison, (size_t)bytes);
 }
@@ -345,6 +348,41 @@ static inline void World_Ticks(kiriWorld* world, int32_t count, float dt, int32_
     }
 }
 
+/* ---- Saves and snapshots ---- */
+
+typedef kiriResult WriteFn(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+
+typedef struct Bytes {
+    uint8_t* data;
+    int64_t size;
+} Bytes;
+
+static inline void Bytes_Free(Bytes* bytes)
+{
+    free(bytes->data);
+}
+
+/* Writes the world by kiriWorld_Save or kiriWorld_Snapshot. */
+static inline Bytes World_Write(const kiriWorld* world, WriteFn* write)
+{
+    Bytes bytes = { NULL, 0 };
+    int64_t size = 0;
+    OK(write(world, NULL, 0, &bytes.size));
+    bytes.data = malloc((size_t)bytes.size);
+    assert_non_null(bytes.data);
+    OK(write(world, bytes.data, bytes.size, &size));
+    assert_int_equal(size, bytes.size);
+    return bytes;
+}
+
+/* Replaces a world by what kiriWorld_Save or kiriWorld_Snapshot writes of another, or of itself. */
+static inline void World_Copy(kiriWorld* to, const kiriWorld* from, WriteFn* write)
+{
+    Bytes bytes = World_Write(from, write);
+    OK((write == kiriWorld_Save ? kiriWorld_Load : kiriWorld_Restore)(to, bytes.data, bytes.size));
+    Bytes_Free(&bytes);
+}
+
 /* The mesh of a def. */
 typedef struct Rectangle {
     float* positions;
@@ -399,6 +437,13 @@ static inline kiriSheetDef Host_SmallDef(void)
     def.framePoints = points;
     def.collisionPoints = 6;
     return def;
+}
+
+/* Adds a square of 1 m with this def. */
+static inline kiriSheet Host_AddSmall(Host* host, int32_t squares)
+{
+    kiriSheetDef def = Host_SmallDef();
+    return Host_AddRectangle(host, &def, 1.0f, 1.0f, squares, squares);
 }
 
 /* A whole cut, waiting for the next tick. */

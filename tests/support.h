@@ -9,6 +9,23 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Whether the program has the address or the thread sanitizer, and whether its malloc can be replaced. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define IS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define IS_SANITIZED 1
+#endif
+#endif
+#ifndef IS_SANITIZED
+#define IS_SANITIZED 0
+#endif
+#if defined(__GLIBC__) && !IS_SANITIZED
+#define REPLACES_MALLOC 1
+#else
+#define REPLACES_MALLOC 0
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif

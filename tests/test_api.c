@@ -855,58 +855,39 @@ TEST(ContactArguments)
     OK(kiriSheet_SetContacts(w, s.given.sheet, NULL, 0));
 }
 
-/* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
+/* Finite is finite: no call with huge numbers crashes, and the mesh stays finite, or the sheet is said to have diverged. */
 TEST(HugeValues)
 {
-    for (int what = 0; what < 8; ++what) {
+    static const float huge[3] = { 1e30f, -1e30f, 1e30f };
+    static const float quad[12] = {
+        -1e30f, -1e30f, 0.0f, 1e30f, -1e30f, 0.0f, 1e30f, 1e30f, 0.0f, -1e30f, 1e30f, 1e30f
+    };
+    for (const EveryCall* call = everyCall; call < everyCall + everyCallCount; ++call) {
         START_STAND(s);
         Host* host = &s.tape.host;
-        kiriWorld* w = host->world;
-        static const float huge[3] = { 1e30f, -1e30f, 1e30f };
-        static const float blade[12] = { -1e30f, -1e30f, 0.0f, 1e30f,  -1e30f, 0.0f,
-                                         1e30f,  1e30f,  0.0f, -1e30f, 1e30f,  1e30f };
-        float inside[2] = { 0.5f, 0.5f };
-        kiriContact contact = { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 1e30f, .friction = 1e30f };
-        kiriPin made;
-        kiriCut cut;
-        kiriHit hit;
-        kiriPinDef pin = DefaultPin();
-        memcpy(pin.target, huge, sizeof(huge));
-        pin.stiffness = 1e30f;
-        switch (what) {
-        case 0:
-            OK(kiriWorld_SetGravity(w, huge));
-            break;
-        case 1:
-            OK(kiriPin_SetTarget(w, s.given.pin, huge));
-            break;
-        case 2:
-            OK(kiriCreatePin(w, s.given.sheet, &pin, &made));
-            break;
-        case 3:
-            OK(kiriFrame_ApplyForce(w, s.given.frame, huge, huge));
-            break;
-        case 4:
-            OK(kiriFrame_Hold(w, s.given.frame, huge, worldAxes));
-            break;
-        case 5:
-            OK(kiriSheet_SetContacts(w, s.given.sheet, &contact, 1));
-            break;
-        case 6:
-            OK(kiriSheet_Slice(w, s.given.sheet, blade, &cut));
-            break;
-        default:
-            OK(kiriCut_Extend(w, s.given.cut, huge, 1));
-            OK(kiriCut_Extend(w, s.given.cut, inside, 1));
-            OK(kiriSheet_Raycast(w, s.given.sheet, huge, huge, 1e30f, &hit));
-            assert_int_equal(hit.triangle, -1);
+        kiriPinDef pin = Host_PinDef(0.9f, 0.1f, 1e30f, -1e30f, 1e30f);
+        kiriContact contacts[12] = { { .point = 0, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 1e30f } };
+        float points[400];
+        for (int i = 0; i < 400; ++i) {
+            points[i] = i % 3 == 0 ? 0.5f : huge[i % 2];
         }
-        for (int tick = 0; tick < 3; ++tick) {
-            kiriResult result = Host_Tick(host, 0.01f, 2);
-            assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+        for (int i = 1; i < 12; ++i) {
+            contacts[i] = contacts[0];
+        }
+        pin.stiffness = contacts[0].friction = 1e30f;
+        s.given.vector = s.given.spin = huge;
+        s.given.quad = quad;
+        s.given.points = points;
+        s.given.pinDef = &pin;
+        s.given.contacts = contacts;
+        kiriResult result = Stand_Make(&s, call);
+        assert_true(result >= 0 || result == KIRI_ERROR_ARGUMENT || result == KIRI_DIVERGED);
+        for (int tick = 0; tick < 3 && strcmp(call->name, "kiriDestroySheet") != 0; ++tick) {
+            result = Host_Tick(host, 0.01f, 2);
+            assert_true(result >= 0 || result == KIRI_DIVERGED);
             kiriMesh mesh = Host_Mesh(host, s.given.sheet);
             if (!AllFinite(mesh.positions, 3 * mesh.vertexCount) || !AllFinite(mesh.normals, 3 * mesh.vertexCount)) {
-                fail_msg("huge value %d, tick %d: not finite", what, tick);
+                fail_msg("%s with huge values, tick %d: not finite", call->name, tick);
             }
         }
     }
@@ -927,8 +908,7 @@ static void CopyEvery(int32_t every)
 {
     START_HOST(own);
     Host* host = &own;
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
+    kiriSheet sheet = Host_AddSmall(host, 6);
     enum { MOST = 16384 };
     static float places[8 * MOST], rest[2 * MOST];
     static uint16_t indices[3 * MOST];

@@ -111,8 +111,7 @@ static kiriHit Cast(const Host* host, kiriSheet sheet, float x, float y)
 TEST(WhoAsks)
 {
     START_HOST(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+    kiriSheet sheet = Host_AddSmall(&host, 16);
     enum { PATIENCE = 120 };
     OK(Host_Tick(&host, 0.01f, 1));
     int64_t live = host.live;

@@ -212,15 +212,12 @@ TEST(Changing)
     assert_true(callers[0].noted == callers[1].noted); /* no recording has refused calls */
 
     /* Saves: the world that is read stays busy. */
-    int64_t size;
-    OK(kiriWorld_Save(callers[1].host.world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
-    OK(kiriWorld_Save(callers[1].host.world, bytes, size, &size));
+    Bytes bytes = World_Write(callers[1].host.world, kiriWorld_Save);
     Arm(&callers[1], false);
-    OK(kiriWorld_Load(callers[1].host.world, bytes, size));
+    OK(kiriWorld_Load(callers[1].host.world, bytes.data, bytes.size));
     assert_true((Disarm(&callers[1]) & (IN_ALLOC | IN_FREE)) == (IN_ALLOC | IN_FREE));
     OK(kiriWorld_Tick(callers[1].host.world, 1.0f / 60.0f, 2));
-    free(bytes);
+    Bytes_Free(&bytes);
     for (int k = 0; k < 2; ++k) {
         callers[k].isRead = false;
         callers[k].armed = k == 0 ? 0 : IN_FREE | IN_RECORD; /* while the world goes */

@@ -64,9 +64,7 @@ TEST(Stopping)
         def.substeps = k / 2 ? 4 : 1;
         def.model = k == 3 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
         Touching_Start(&t, &def, down);
-        for (int tick = 0; tick < 60; ++tick) {
-            Touching_Tick(&t, &floor);
-        }
+        Touching_Ticks(&t, &floor, 60);
         double law = 4.0 / (2.0 * 0.4 * 9.81);
         AssertWithin(Touching_Totals(&t).center[0] - 0.2, law, 0.05 * law, "stopping distance");
     }
@@ -247,9 +245,7 @@ TEST(Loads)
         Plane floor = Touching_Floor(0.5);
         SCOPED(Touching, t, Touching_Stop);
         Touching_Start(&t, &def, gravity);
-        for (int tick = 0; tick < 90; ++tick) {
-            Touching_Tick(&t, &floor);
-        }
+        Touching_Ticks(&t, &floor, 90);
         assert_true(t.deepest < 1e-4);
         AssertWithin(t.impulse[2], load * t.mass * 9.81 * def.dt, 1e-3 * load * t.mass * 9.81 * def.dt, "weight");
     }
@@ -360,9 +356,7 @@ static void LieDown(Touching* t, Plane* floor)
 {
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
     Touching_Start(t, &def, down);
-    for (int tick = 0; tick < 120; ++tick) {
-        Touching_Tick(t, floor);
-    }
+    Touching_Ticks(t, floor, 120);
     assert_true(Sleeps(t));
 }
 
@@ -383,9 +377,7 @@ TEST(Sleep)
         }
         Touching_Tick(&t, &floor);
         assert_int_equal(Sleeps(&t), k == 3);
-        for (int tick = 0; tick < 10; ++tick) {
-            Touching_Tick(&t, &floor);
-        }
+        Touching_Ticks(&t, &floor, 10);
         assert_true(k != 0 || MeanSpeed(&t, 0) > 0.1);
         assert_true(k != 2 || MeanSpeed(&t, 2) < -0.5);
     }
@@ -421,9 +413,7 @@ TEST(Planar)
         def.points = 400;
         def.speed[0] = 1.0;
         Touching_Start(&t, &def, along);
-        for (int tick = 0; tick < 90; ++tick) {
-            Touching_Tick(&t, &floor);
-        }
+        Touching_Ticks(&t, &floor, 90);
         assert_true(t.deepest < 1e-4);
         AssertWithin(t.impulse[1], t.mass * 9.81 * def.dt, 1e-2 * t.mass * 9.81 * def.dt, "weight");
         AssertWithin(MeanSpeed(&t, 0), 0.0, 1e-3, "it stopped");

@@ -320,8 +320,7 @@ TEST(OfOneSheet)
 {
     Stage stage;
     Begin(&stage);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet other = Host_AddRectangle(&stage.host, &def, 1.0f, 1.0f, 8, 8);
+    kiriSheet other = Host_AddSmall(&stage.host, 8);
     stage.canvas.draw.sheet = other;
     Draw(&stage.canvas, &stage.host, KIRI_DRAW_OBSTACLES | KIRI_DRAW_TRIANGLES | KIRI_DRAW_POINTS);
     CheckCounts(&stage.canvas, 6, 0, 128);

@@ -371,8 +371,7 @@ TEST(EstimateNeedsLittle)
     double estimate = -1.0;
     HOST(host);
     StartHost(&host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     int64_t calls = host.calls, live = host.live;
     uint64_t hash = Host_Hash(&host);
     OK(kiriSheet_EstimateError(host.world, sheet, &estimate));

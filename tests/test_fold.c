@@ -27,11 +27,6 @@ static kiriSheet AddFolded(Host* host, kiriSheetDef* def, float width, float hei
     return sheet;
 }
 
-static kiriFoldState StateOf(const Host* host, kiriSheet sheet, int32_t index)
-{
-    return World_FoldState(host->world, sheet, index);
-}
-
 static void HoldLeftOf(Host* host, kiriSheet sheet, float u)
 {
     kiriFrame frames[64];
@@ -73,7 +68,8 @@ static double HangAtHinge(double k, int32_t frames, int32_t grid, int32_t column
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.05f, columns, columns / 2, &fold, 1);
     HoldLeftOf(&host, sheet, 0.05f);
     Host_Ticks(&host, 300, Dt, 1);
-    double angle = -StateOf(&host, sheet, 0).angle, weight = 800.0 * 3e-4 * 9.81, b = 0.05, low = 0.0, high = 1.6;
+    double angle = -World_FoldState(host.world, sheet, 0).angle, weight = 800.0 * 3e-4 * 9.81, b = 0.05, low = 0.0,
+           high = 1.6;
     for (int i = 0; i < 60; ++i) {
         double middle = 0.5 * (low + high);
         (k * middle < 0.5 * weight * b * b * cos(middle) ? (low = middle) : (high = middle));
@@ -158,7 +154,8 @@ TEST(SeenSurfaceIsTwoPlanes)
         worst[0] = fmax(worst[0], fmin(off[0], off[1]));
         worst[1] = fmax(worst[1], fmax(off[0], off[1]));
     }
-    print_message("off the planes by %.2g m, turned by %.3f rad\n", worst[0], StateOf(&host, sheet, 0).angle);
+    print_message("off the planes by %.2g m, turned by %.3f rad\n", worst[0],
+                  World_FoldState(host.world, sheet, 0).angle);
     assert_true(worst[0] < 1e-6 && worst[1] > 0.02); /* 1e-5 of the size */
 }
 
@@ -173,24 +170,26 @@ TEST(CutsGoThroughFolds)
     def.frameCount = 8;
     kiriSheet part, sheet = AddFolded(&host, &def, 0.1f, 0.05f, 20, 10, folds, 2);
     assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
-    assert_true(fabs(StateOf(&host, sheet, 0).length - 0.05) < 1e-8);
-    double inside = StateOf(&host, sheet, 1).length;
+    assert_true(fabs(World_FoldState(host.world, sheet, 0).length - 0.05) < 1e-8);
+    double inside = World_FoldState(host.world, sheet, 1).length;
     Host_Cut(&host, sheet, across, 2);
     OK(Host_Tick(&host, Dt, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-    assert_true(fabs(StateOf(&host, sheet, 0).length - 0.05) < 1e-8);
-    assert_true(StateOf(&host, sheet, 1).length >= inside - 1e-9);
+    assert_true(fabs(World_FoldState(host.world, sheet, 0).length - 0.05) < 1e-8);
+    assert_true(World_FoldState(host.world, sheet, 1).length >= inside - 1e-9);
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part));
     OK(Host_Tick(&host, Dt, 1));
-    assert_true(fabs(StateOf(&host, sheet, 0).length + StateOf(&host, part, 0).length - 0.05) < 1e-8);
+    assert_true(
+        fabs(World_FoldState(host.world, sheet, 0).length + World_FoldState(host.world, part, 0).length - 0.05) < 1e-8);
     OK(kiriSheet_SetFold(host.world, part, 0, 1e-3f, -0.5f));
-    assert_true((double)StateOf(&host, sheet, 0).fold.restAngle == 0.5);
+    assert_true((double)World_FoldState(host.world, sheet, 0).fold.restAngle == 0.5);
     Host_Cut(&host, sheet, along, 2);
     Host_Cut(&host, part, along, 2);
     OK(Host_Tick(&host, Dt, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
     assert_int_equal(Host_Counts(&host, part).pieces, 2);
-    assert_true(StateOf(&host, sheet, 0).length == 0.0 && StateOf(&host, sheet, 0).angle == 0.0);
+    assert_true(World_FoldState(host.world, sheet, 0).length == 0.0 &&
+                World_FoldState(host.world, sheet, 0).angle == 0.0);
 }
 
 /* Blades in world space go through folds. */
@@ -248,7 +247,7 @@ TEST(FoldsGoToTheirRestAngle)
         float rest = 0.5f * (float)k;
         OK(kiriSheet_SetFold(host.world, sheet, 0, 0.01f, rest));
         Host_Ticks(&host, 120, Dt, 2);
-        assert_true(fabs(StateOf(&host, sheet, 0).angle - (double)rest) < 1e-3);
+        assert_true(fabs(World_FoldState(host.world, sheet, 0).angle - (double)rest) < 1e-3);
         kiriTotals totals = Host_Totals(&host, sheet);
         for (int a = 0; a < 3; ++a) {
             assert_true(fabs(totals.momentum[a]) < 1e-9 && fabs(totals.angularMomentum[a]) < 1e-9);
@@ -286,7 +285,7 @@ static double LetGo(float yieldMoment)
         }
     }
     Host_Ticks(&host, 200, Dt, 2);
-    double angle = StateOf(&host, sheet, 0).angle;
+    double angle = World_FoldState(host.world, sheet, 0).angle;
     return angle;
 }
 
@@ -305,15 +304,15 @@ TEST(FoldsAreAddedLater)
     kiriSheet sheet = Host_AddRectangle(&host, &def, 0.1f, 0.05f, 20, 10);
     OK(kiriSheet_AddFold(host.world, sheet, &fold, &index));
     assert_int_equal(index, 0);
-    assert_true(StateOf(&host, sheet, 0).length == 0.0);
+    assert_true(World_FoldState(host.world, sheet, 0).length == 0.0);
     while (Host_Tick(&host, Dt, 2) == KIRI_PENDING) {
         ++ticks;
     }
     assert_in_range(ticks, 1, 60);
-    assert_true(fabs(StateOf(&host, sheet, 0).length - 0.05) < 1e-8);
-    assert_true(fabs(StateOf(&host, sheet, 0).angle) < 0.5); /* it goes on from flat */
+    assert_true(fabs(World_FoldState(host.world, sheet, 0).length - 0.05) < 1e-8);
+    assert_true(fabs(World_FoldState(host.world, sheet, 0).angle) < 0.5); /* it goes on from flat */
     Host_Ticks(&host, 200, Dt, 2);
-    assert_true(fabs(StateOf(&host, sheet, 0).angle - 1.0) < 2e-3);
+    assert_true(fabs(World_FoldState(host.world, sheet, 0).angle - 1.0) < 2e-3);
     CheckLips(&host, sheet);
 }
 
@@ -394,7 +393,7 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
         }
         Host_Ticks(&host, (degrees % 20 == 0 ? 60 : 4), Dt, 2);
         for (int i = 0; i < m.count && degrees % 20 == 0; ++i) {
-            double want = m.sign[i] * (m.isZig[i] ? zig : line), is = StateOf(&host, sheet, i).angle;
+            double want = m.sign[i] * (m.isZig[i] ? zig : line), is = World_FoldState(host.world, sheet, i).angle;
             worst = fmax(worst, fabs(is - want) / Degree);
         }
     }
@@ -483,14 +482,9 @@ static void TakePieces(Host* host)
 /* A twin that was saved and loaded, or restored, goes on in the same way. */
 static void CheckTwin(Host* host, bool isSnapshot)
 {
-    int64_t size = 0, written;
     START_HOST(twin);
     OK(kiriWorld_FinishCuts(host->world));
-    OK(isSnapshot ? kiriWorld_Snapshot(host->world, NULL, 0, &size) : kiriWorld_Save(host->world, NULL, 0, &size));
-    FREED(void, bytes) = malloc((size_t)size);
-    OK(isSnapshot ? kiriWorld_Snapshot(host->world, bytes, size, &written)
-                  : kiriWorld_Save(host->world, bytes, size, &written));
-    OK(isSnapshot ? kiriWorld_Restore(twin.world, bytes, size) : kiriWorld_Load(twin.world, bytes, size));
+    World_Copy(twin.world, host->world, isSnapshot ? kiriWorld_Snapshot : kiriWorld_Save);
     if (Host_Hash(host) != Host_Hash(&twin)) {
         fail_msg("a twin by a %s has another hash", isSnapshot ? "snapshot" : "save");
     }
@@ -597,7 +591,7 @@ static bool SetInTick(int32_t when)
     assert_in_range(tick, 20, 200);
     Host_Ticks(&host, tick > when ? 60 : 0, Dt, 2);
     for (int f = 0; f < FOLDS && tick > when; ++f) {
-        assert_true(fabs(StateOf(&host, sheet, f).angle - 0.3) < 0.03);
+        assert_true(fabs(World_FoldState(host.world, sheet, f).angle - 0.3) < 0.03);
     }
     return tick <= when;
 }
@@ -622,6 +616,6 @@ TEST(SmallSnapsJoinFolds)
         def.frameCount = 12;
         def.snapDistance = snaps[k];
         kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 16, 16, &fold, 1);
-        assert_true(fabs(StateOf(&host, sheet, 0).length - 1.172) < 0.01);
+        assert_true(fabs(World_FoldState(host.world, sheet, 0).length - 1.172) < 0.01);
     }
 }

@@ -206,12 +206,11 @@ TEST(PointHasANormal)
 
 TEST(PointNamesItsPiece)
 {
-    kiriSheetDef def = Host_SmallDef();
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, outside[2] = { 1.5f, 0.5f };
     int32_t pieces[2];
     kiriPointState point;
     START_HOST(host);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     Host_Cut(&host, sheet, line, 2);
     OK(Host_Tick(&host, DT, 1));
     for (int k = 0; k < 2; ++k) {
@@ -345,12 +344,11 @@ static double ForceOn(const Host* host, kiriPin pin)
 /* Three hold; each breaks in the tick in which it bears more than it can, and no sooner. */
 TEST(PinsBreak)
 {
-    kiriSheetDef def = Host_SmallDef();
     const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
     kiriEvent event = { 0 };
     kiriPin pins[4];
     START_HOST(host);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pins[0]));
     pins[1] = PinTo(&host, sheet, 0, 0.1f, 0.1f);
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
@@ -414,10 +412,9 @@ TEST(DrawnPinDoesNotJerk)
 
 TEST(HeldFrameMovesEvenly)
 {
-    kiriSheetDef def = Host_SmallDef();
     kiriFrame frames[8];
     START_HOST(host);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     World_GetFrames(host.world, sheet, frames, 8);
     kiriFrameState frame = World_FrameState(host.world, frames[0]);
     float position[3] = { frame.position[0], frame.position[1], frame.position[2] };
@@ -600,12 +597,11 @@ static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 /* Where it goes the point goes, by velocity and by turning; what the pin bears the obstacle gets. */
 TEST(PinGoesWithObstacle)
 {
-    kiriSheetDef def = Host_SmallDef();
     const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f };
     kiriObstacleState ball;
     kiriPinState pinState;
     START_HOST(host);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     kiriObstacle obstacle = AddBall(&host, 0.1f, 1.0f, 0.0f, 0.0f);
     kiriPin pin = PinTo(&host, sheet, obstacle, 0.0f, 1.0f), other;
     OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, spin));

@@ -336,9 +336,8 @@ TEST(ReactionsAtRest)
         HoldSheet(&host, sheet, k % HOLDS);
         host.every = 50;
         double force[3], torque[3];
-        kiriTotals totals;
         Host_Ticks(&host, 250, 0.04f, 1);
-        totals = Host_Totals(&host, sheet);
+        kiriTotals totals = Host_Totals(&host, sheet);
         SumReactions(&host, sheet, force, torque);
         double weight = totals.mass * (double)9.81f;
         const double expected[3] = { 0.0, 0.0, weight };

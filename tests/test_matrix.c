@@ -282,14 +282,9 @@ TEST(Hashes)
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Counts malloc of the whole program, and so C++'s new, where the C library lets us replace it. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
 static int64_t requests;
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(IS_SANITIZED)
+#if REPLACES_MALLOC
 extern void* __libc_malloc(size_t bytes);
 
 void* malloc(size_t bytes)

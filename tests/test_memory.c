@@ -4,13 +4,7 @@
 #include "layout_hash.h"
 
 /* malloc of the whole program, counted, where the C library lets us stand in front of it. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(IS_SANITIZED)
-#define COUNTS_MALLOC 1
+#if REPLACES_MALLOC
 extern void* __libc_malloc(size_t bytes);
 extern void* __libc_calloc(size_t count, size_t bytes);
 extern void* __libc_realloc(void* pointer, size_t bytes);
@@ -35,7 +29,6 @@ void* realloc(void* pointer, size_t bytes)
     return __libc_realloc(pointer, bytes);
 }
 #else
-#define COUNTS_MALLOC 0
 static int64_t taken;
 #endif
 
@@ -94,7 +87,7 @@ TEST(PlainTicks)
         int64_t calls = host.calls, before = taken;
         kiriSheet sheet = AddSheet(&host, &settings[i]);
         assert_true(host.calls > calls);
-        assert_true(!COUNTS_MALLOC || taken - before >= host.calls - calls); /* so it does count */
+        assert_true(!REPLACES_MALLOC || taken - before >= host.calls - calls); /* so it does count */
         for (int pass = 0; pass < 2; ++pass) {
             for (int tick = 0; tick < 4; ++tick) {
                 Act(&host, sheet, tick);
@@ -153,18 +146,13 @@ static kiriSheet AddForCut(Host* host, int32_t columns)
     return sheet;
 }
 
-static uint64_t LayoutOf(const Host* host)
-{
-    return Layout_HashAll(host->world);
-}
-
 /* What a cut leaves when nothing fails. */
 static uint64_t LayoutWithoutFailure(int32_t columns)
 {
     START_HOST(host);
     AddForCut(&host, columns);
     OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
-    uint64_t layout = LayoutOf(&host);
+    uint64_t layout = Layout_HashAll(host.world);
     return layout;
 }
 
@@ -199,7 +187,7 @@ TEST(ScarceMemoryIsASpentBudget)
         }
         host.failEvery = 0;
         CheckIndices(&host, sheet, Host_Counts(&host, sheet));
-        assert_true(LayoutOf(&host) == LayoutWithoutFailure(16));
+        assert_true(Layout_HashAll(host.world) == LayoutWithoutFailure(16));
     }
     print_message("%d ticks with all the memory, %d where each %dth request is refused\n", ticks[0], ticks[1], EVERY);
     assert_in_range(ticks[1], ticks[0], 3 * ticks[0]);

@@ -201,16 +201,6 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
     return awake != 0;
 }
 
-static kiriTotals TotalsOf(const Host* host, kiriSheet sheet)
-{
-    return World_Totals(host->world, sheet);
-}
-
-static kiriObstacleState StateOf(const Host* host, kiriObstacle obstacle)
-{
-    return World_ObstacleState(host->world, obstacle);
-}
-
 #define REFUSED(result, call)                                                                                          \
     do {                                                                                                               \
         uint64_t hashBefore = Host_Hash(&host);                                                                        \
@@ -292,7 +282,7 @@ TEST(WhereFloatsEndNothingMoves)
         for (int i = 0; i < 3; ++i) {
             kiriResult result = Host_Tick(&host, 10.0f, 1);
             assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
-            kiriObstacleState now = StateOf(&host, obstacle);
+            kiriObstacleState now = World_ObstacleState(host.world, obstacle);
             assert_true(AllFinite(now.position, 3) && AllFinite(now.rotation, 9));
         }
         OK(kiriObstacle_SetVelocity(host.world, obstacle, noVector, noVector));
@@ -313,15 +303,15 @@ TEST(PlateRestsOnAFloor)
         OK(Host_Tick(&host, dt, 2));
     }
     assert_in_range(ticks, 30, 120);
-    kiriTotals totals = TotalsOf(&host, sheet);
+    kiriTotals totals = Host_Totals(&host, sheet);
     double weight = -9.81 * totals.mass * (double)dt;
     assert_true(fabs(totals.center[2] - 0.005) < 1e-4);
-    assert_true(fabs(StateOf(&host, floor).impulse[2] / weight - 1.0) < 1e-3);
+    assert_true(fabs(World_ObstacleState(host.world, floor).impulse[2] / weight - 1.0) < 1e-3);
     Ticks(&host, 10);
     assert_false(IsAwake(&host, sheet));
-    assert_true(fabs(StateOf(&host, floor).impulse[2] / weight - 1.0) < 1e-3);
-    assert_true(fabs(StateOf(&host, floor).angularImpulse[0] / weight) < 1e-3);
-    assert_true(StateOf(&host, floor).contacts >= 3);
+    assert_true(fabs(World_ObstacleState(host.world, floor).impulse[2] / weight - 1.0) < 1e-3);
+    assert_true(fabs(World_ObstacleState(host.world, floor).angularImpulse[0] / weight) < 1e-3);
+    assert_true(World_ObstacleState(host.world, floor).contacts >= 3);
 }
 
 static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
@@ -399,8 +389,8 @@ TEST(SlowLiftsCarry)
     const float up[3] = { 0.0f, 0.0f, 0.0008f };
     OK(kiriObstacle_SetVelocity(host.world, box, up, noVector));
     Host_Ticks(&host, 600, dt, 2);
-    double height = TotalsOf(&host, sheet).center[2] - (double)StateOf(&host, box).position[2];
-    assert_true(fabs(StateOf(&host, box).position[2] - 0.008) < 1e-5);
+    double height = Host_Totals(&host, sheet).center[2] - (double)World_ObstacleState(host.world, box).position[2];
+    assert_true(fabs(World_ObstacleState(host.world, box).position[2] - 0.008) < 1e-5);
     assert_true(fabs(height - 0.205) < 8e-4);
 }
 
@@ -413,10 +403,10 @@ TEST(LiftsAndConveyorsCarry)
     kiriObstacle lift = Add(&host, &def);
     kiriSheet sheet = AddPlate(&host, 0.0f, 0.006f, 0.001f);
     Ticks(&host, 60);
-    kiriTotals totals = TotalsOf(&host, sheet);
+    kiriTotals totals = Host_Totals(&host, sheet);
     assert_true(fabs(totals.momentum[2] / totals.mass - 0.5) < 1e-3);
     assert_true(fabs(totals.momentum[0] / totals.mass - 0.3) < 1e-3);
-    assert_true(fabs(totals.center[2] - StateOf(&host, lift).position[2] - 0.005) < 2e-4);
+    assert_true(fabs(totals.center[2] - World_ObstacleState(host.world, lift).position[2] - 0.005) < 2e-4);
 }
 
 /* What two plates lose, the crate that they fall on gets; and it is not more than its mass can take. */
@@ -442,16 +432,16 @@ TEST(SheetsShareAnObstacle)
         plate.position[1] = -0.1f;
         plate.position[2] = 0.215f;
         plates[i] = Host_AddRectangle(&host, &plate, 0.18f, 0.2f, 8, 8);
-        before += TotalsOf(&host, plates[i]).momentum[2];
+        before += Host_Totals(&host, plates[i]).momentum[2];
     }
     OK(Host_Tick(&host, dt, 2));
-    given = StateOf(&host, crate).impulse[2];
+    given = World_ObstacleState(host.world, crate).impulse[2];
     for (int i = 0; i < 2; ++i) {
-        after += TotalsOf(&host, plates[i]).momentum[2];
+        after += Host_Totals(&host, plates[i]).momentum[2];
     }
     assert_true(given < 0.0 && fabs(before - after - given) < 1e-9 * fabs(before) + 1e-12);
     /* No faster than all of them together can be: nobody was pushed out by more than came in. */
-    double slowest = before / (0.02 + 2.0 * TotalsOf(&host, plates[0]).mass);
+    double slowest = before / (0.02 + 2.0 * Host_Totals(&host, plates[0]).mass);
     assert_true(given / 0.02 > 2.0 * slowest && after > before);
 }
 
@@ -573,7 +563,7 @@ static kiriObstacleState TickBall(Host* host, kiriObstacle ball, kiriObstacleDef
     OK(kiriObstacle_SetPose(host->world, ball, def->position, def->rotation));
     OK(kiriObstacle_SetVelocity(host->world, ball, def->velocity, def->angularVelocity));
     OK(kiriWorld_Tick(host->world, dt, substeps));
-    kiriObstacleState now = StateOf(host, ball);
+    kiriObstacleState now = World_ObstacleState(host->world, ball);
     for (int i = 0; i < 3; ++i) {
         def->velocity[i] += now.impulse[i] / def->mass;
         def->position[i] += dt * def->velocity[i];
@@ -590,7 +580,7 @@ TEST(HeavyBodiesRestOnCloth)
         kiriSheetDef cloth = DefaultSheet();
         cloth.frameCount = 25;
         kiriSheet sheet = Host_AddRectangle(&host, &cloth, 1.0f, 1.0f, 40, 40);
-        double weight = 0.0, mass = 100.0 * TotalsOf(&host, sheet).mass;
+        double weight = 0.0, mass = 100.0 * Host_Totals(&host, sheet).mass;
         for (int i = 0; i < 4; ++i) {
             World_Hinge(host.world, sheet, corners[i], corners[i + 1]);
         }
@@ -646,8 +636,8 @@ TEST(GroupsTellWhoTouches)
     plate.groups = 5;
     kiriSheet passes = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 4, 4);
     Ticks(&host, 40);
-    assert_true(TotalsOf(&host, holds).center[2] > 0.0);
-    assert_true(TotalsOf(&host, passes).center[2] < -1.0);
+    assert_true(Host_Totals(&host, holds).center[2] > 0.0);
+    assert_true(Host_Totals(&host, passes).center[2] < -1.0);
 }
 
 /* Of a rigid planar plate that stands on its edge at a height. */
@@ -679,8 +669,8 @@ TEST(PlanarSheetsRestOnPolygons)
         kiriSheetDef plate = UprightPlate(0.01f, 0.25f);
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 8, 4);
         Ticks(&host, 60);
-        assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.2 - 0.005 - 0.05) < 1e-3);
-        assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
+        assert_true(fabs(Host_Totals(&host, sheet).center[2] - 0.2 - 0.005 - 0.05) < 1e-3);
+        assert_true(fabs(Host_Totals(&host, sheet).center[0]) < 1e-2);
     }
 }
 
@@ -700,8 +690,8 @@ TEST(PlanarBordersRestOnCorners)
     kiriSheetDef plate = UprightPlate(0.004f, 0.05f);
     kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.1f, 1, 1);
     Ticks(&host, 60);
-    assert_true(fabs(TotalsOf(&host, sheet).center[2] - 0.002 - 0.05) < 1e-3);
-    assert_true(fabs(TotalsOf(&host, sheet).center[0]) < 1e-2);
+    assert_true(fabs(Host_Totals(&host, sheet).center[2] - 0.002 - 0.05) < 1e-3);
+    assert_true(fabs(Host_Totals(&host, sheet).center[0]) < 1e-2);
 }
 
 /* Two triangles, 0.2 m wide, bridge balls of 2 cm and rods: flat, and as the border of a planar sheet. */
@@ -731,7 +721,7 @@ TEST(RoundObstaclesHoldBetweenVertices)
         Set3(plate.position, -0.1f, planar ? 0.0f : -0.1f, 0.02f);
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 1, 1);
         Ticks(&host, 90);
-        assert_true(fabs(TotalsOf(&host, sheet).center[2] - (planar ? 0.102 : 0.002)) < 1e-3);
+        assert_true(fabs(Host_Totals(&host, sheet).center[2] - (planar ? 0.102 : 0.002)) < 1e-3);
     }
 }
 
@@ -744,7 +734,7 @@ TEST(ObstaclesAdvance)
     def.angularVelocity[2] = 3.0f;
     kiriObstacle obstacle = Add(&host, &def);
     Ticks(&host, 60);
-    kiriObstacleState is = StateOf(&host, obstacle);
+    kiriObstacleState is = World_ObstacleState(host.world, obstacle);
     assert_true(fabs(is.position[0] - 2.0) < 1e-5);
     assert_true(fabs(is.rotation[0] - cos(3.0)) < 1e-6 && fabs(is.rotation[1] - sin(3.0)) < 1e-6);
 }

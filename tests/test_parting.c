@@ -7,11 +7,6 @@ enum { MOST_SHEETS = 64, MOST_PIECES = 600 };
 
 /* ---- Scenes ---- */
 
-static void Weightless(Host* host)
-{
-    World_StopGravity(host->world);
-}
-
 /* A square in so many pieces; blades are a little off the lines of the mesh. */
 static kiriSheet Chop(Host* host, kiriSheetDef* def, int32_t across, int32_t along)
 {
@@ -274,7 +269,7 @@ TEST(GoneIsNotSeen)
 {
     kiriSheetDef def = DefOf(24);
     START_HOST(host);
-    Weightless(&host);
+    World_StopGravity(host.world);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), detached;
     Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
     Host_Cut(&host, sheet, (float[]){ 0.4f, -0.1f, 0.4f, 0.3f, -0.1f, 0.3f }, 3);
@@ -352,10 +347,9 @@ TEST(CallsKeepToTheBudget)
         const kiriBudget budget = { 0, 0, k == 0 ? SAMPLES : 0, 0 };
         kiriFrame frames[PIECES];
         kiriSheet made[PIECES];
-        kiriResult result;
         int32_t ticks = 0, waiting = 0, most = 0;
         START_HOST(host);
-        Weightless(&host);
+        World_StopGravity(host.world);
         kiriSheetDef def = DefOf(48);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
         for (int32_t i = 1; i < 6; ++i) {
@@ -366,7 +360,7 @@ TEST(CallsKeepToTheBudget)
         OK(Host_Tick(&host, 1.0f / 60.0f, 1));
         OK(kiriWorld_SetBudget(host.world, &budget));
         int32_t count = ListFrames(&host, sheet, 9, frames);
-        result = kiriFrame_DetachPiece(host.world, frames[0], &made[0]);
+        kiriResult result = kiriFrame_DetachPiece(host.world, frames[0], &made[0]);
         assert_true(result == KIRI_OK && made[0] != 0);
         result = kiriWorld_DetachPieces(host.world, frames + 1, count - 1, made + 1);
         assert_int_equal(result, k == 0 ? KIRI_PENDING : KIRI_OK);
@@ -486,7 +480,7 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
 {
     Wait wait;
     Host_Start(host);
-    Weightless(host);
+    World_StopGravity(host->world);
     kiriSheetDef def = DefOf(16);
     wait.sheet = Chop(host, &def, 1, 4);
     for (int32_t p = 0; p < 4; ++p) {

@@ -237,12 +237,7 @@ static void ChangeBudget(Past* past)
 /* The world as it is now, from its own snapshot: all that is in it is new. */
 static void Load(Past* past)
 {
-    int64_t size;
-    OK(kiriWorld_Snapshot(past->host.world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
-    OK(kiriWorld_Snapshot(past->host.world, bytes, size, &size));
-    OK(kiriWorld_Restore(past->host.world, bytes, size));
-    free(bytes);
+    World_Copy(past->host.world, past->host.world, kiriWorld_Snapshot);
     Forget(past);
 }
 

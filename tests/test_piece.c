@@ -36,16 +36,6 @@ static void Tick(Host* host, int32_t count)
     }
 }
 
-static kiriPieceState StateOf(Host* host, kiriSheet sheet, int32_t piece)
-{
-    return World_PieceState(host->world, sheet, piece);
-}
-
-static kiriPieceMesh MeshOf(Host* host, kiriSheet sheet, int32_t piece)
-{
-    return World_PieceMesh(host->world, sheet, piece);
-}
-
 /* ---- Lists, against parts that hang together by vertices ---- */
 
 static int32_t Root(int32_t* parent, int32_t i)
@@ -146,8 +136,8 @@ static void CheckPieces(Host* host, kiriSheet sheet)
     }
     assert_int_equal(parts, counts.pieces);
     for (int32_t p = 0; p < counts.pieces; ++p) {
-        kiriPieceState state = StateOf(host, sheet, p);
-        kiriPieceMesh piece = MeshOf(host, sheet, p);
+        kiriPieceState state = World_PieceState(host->world, sheet, p);
+        kiriPieceMesh piece = World_PieceMesh(host->world, sheet, p);
         assert_int_equal(piece.vertexCount, state.vertices);
         assert_int_equal(piece.triangleCount, state.triangles);
         assert_int_equal(piece.collisionPointCount, state.collisionPoints);
@@ -213,7 +203,7 @@ TEST(ListsWhileWorkWaits)
     int32_t waits = 0;
     while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
         kiriCounts counts = Host_Counts(&host, sheet);
-        kiriPieceState whole = StateOf(&host, sheet, 0);
+        kiriPieceState whole = World_PieceState(host.world, sheet, 0);
         assert_int_equal(counts.pieces, 1);
         assert_int_equal(whole.vertices, counts.vertices);
         assert_int_equal(whole.triangles, counts.triangles);
@@ -232,10 +222,10 @@ TEST(ListsAreLazy)
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
     Shred(&host, sheet, 4, &seed);
     Tick(&host, 1);
-    kiriPieceMesh first = MeshOf(&host, sheet, 1);
+    kiriPieceMesh first = World_PieceMesh(host.world, sheet, 1);
     int64_t calls = host.calls;
     Tick(&host, 3);
-    kiriPieceMesh again = MeshOf(&host, sheet, 1);
+    kiriPieceMesh again = World_PieceMesh(host.world, sheet, 1);
     assert_int_equal(host.calls, calls);
     assert_ptr_equal(first.vertices, again.vertices);
     assert_ptr_equal(first.indices, again.indices);
@@ -244,8 +234,7 @@ TEST(ListsAreLazy)
 TEST(PieceErrors)
 {
     START_HOST(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     kiriPieceState piece;
     kiriPieceMesh mesh;
     const kiriFrame* frames;
@@ -276,7 +265,7 @@ TEST(EventNamesFrame)
     int32_t piece = -1;
     assert_int_equal(Host_Events(&host, KIRI_EVENT_PIECE_OFF, &event), 1);
     OK(kiriFrame_GetPiece(host.world, event.frame, &piece));
-    kiriPieceState off = StateOf(&host, sheet, piece);
+    kiriPieceState off = World_PieceState(host.world, sheet, piece);
     assert_float_equal(off.area, 0.22 * 0.22, 1e-6);
     assert_float_equal(off.area, event.area, 1e-7);
     assert_float_equal(off.mass, off.area * def.material.density * def.material.thickness, 1e-9);
@@ -321,7 +310,7 @@ static void Part_Take(Part* part, Host* host, kiriSheet sheet, int32_t piece, bo
 {
     static int32_t to[MOST_VERTICES];
     kiriMesh mesh = Host_Mesh(host, sheet);
-    kiriPieceMesh its = MeshOf(host, sheet, piece);
+    kiriPieceMesh its = World_PieceMesh(host->world, sheet, piece);
     kiriFrame frames[MOST_FRAMES];
     int32_t of;
     assert_true(mesh.vertexCount <= MOST_VERTICES && mesh.triangleCount <= 2 * MOST_VERTICES);
@@ -530,7 +519,7 @@ static int32_t PieceAt(Host* host, kiriSheet sheet, double v)
 {
     int32_t found = -1;
     for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
-        kiriPieceMesh mesh = MeshOf(host, sheet, p);
+        kiriPieceMesh mesh = World_PieceMesh(host->world, sheet, p);
         double low = 2.0, high = -1.0;
         for (int32_t i = 0; i < mesh.vertexCount; ++i) {
             double at = Host_Mesh(host, sheet).restPositions[2 * mesh.vertices[i] + 1];
@@ -591,7 +580,7 @@ TEST(BladeOfTheRestGoesOn)
         OK(kiriCut_Extend(host.world, cut, on, 2));
         OK(kiriCut_End(host.world, cut));
         Tick(&host, 1);
-        kiriPieceMesh mesh = MeshOf(&host, sheet, PieceAt(&host, sheet, 0.8));
+        kiriPieceMesh mesh = World_PieceMesh(host.world, sheet, PieceAt(&host, sheet, 0.8));
         most[detach] = mesh.triangleCount;
         areas += (uint64_t)mesh.vertexCount;
     }
@@ -639,7 +628,7 @@ TEST(ContactsMoveAlong)
     World_StopGravity(host.world);
     kiriSheet sheet = Strips(&host, 2), detached;
     int32_t piece = PieceAt(&host, sheet, 0.8);
-    kiriContact contact = { .point = MeshOf(&host, sheet, piece).collisionPoints[0],
+    kiriContact contact = { .point = World_PieceMesh(host.world, sheet, piece).collisionPoints[0],
                             .normal = { 0.0f, 0.0f, 1.0f },
                             .offset = 0.1f };
     OK(kiriSheet_SetContacts(host.world, sheet, &contact, 1));
@@ -679,7 +668,7 @@ TEST(DropCrumbs)
         int32_t below = 0, count, pieces = Host_Counts(&host, sheet).pieces;
         float limit = (float)RandomBetween(&seed, 0.01, run == 1 ? 1.0 : 0.05);
         for (int32_t p = 0; p < pieces; ++p) {
-            double area = StateOf(&host, sheet, p).area;
+            double area = World_PieceState(host.world, sheet, p).area;
             below += area < limit;
             kept += area < limit ? 0.0 : area;
             largest = fmax(largest, area);
@@ -727,7 +716,7 @@ TEST(CrumbsAreNotSampled)
             }
         }
         for (int32_t p = 0; p < Host_Counts(&host, sheet).pieces; ++p) {
-            kiriPieceState piece = StateOf(&host, sheet, p);
+            kiriPieceState piece = World_PieceState(host.world, sheet, p);
             assert_int_equal(piece.crumb, with && piece.area < 0.05);
             crumbs[with] += piece.area < 0.05;
             frames[with] += piece.area < 0.05 ? piece.frames : 0;
@@ -753,7 +742,8 @@ TEST(CrumbsOfDef)
     for (int with = 0; with < 2; ++with) {
         def.crumbArea = with ? 0.1f : 0.0f;
         kiriSheet sheet = World_AddSheet(host.world, &def);
-        int32_t small = StateOf(&host, sheet, 0).area < 0.1 ? 0 : 1;
-        assert_true(with ? StateOf(&host, sheet, small).frames == 1 : StateOf(&host, sheet, small).frames > 1);
+        int32_t small = World_PieceState(host.world, sheet, 0).area < 0.1 ? 0 : 1;
+        assert_true(with ? World_PieceState(host.world, sheet, small).frames == 1
+                         : World_PieceState(host.world, sheet, small).frames > 1);
     }
 }

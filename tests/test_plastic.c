@@ -279,18 +279,14 @@ TEST(PiecesKeepTheirShape)
     }
     OK(kiriFrame_DetachPiece(s.host.world, leaver, &part));
     Strip_Rest(&s, 2);
-    int64_t size;
-    OK(kiriWorld_Save(s.host.world, NULL, 0, &size));
-    void* bytes = malloc((size_t)size);
-    OK(kiriWorld_Save(s.host.world, bytes, size, &size));
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(s.host.world, kiriWorld_Save);
     Strip_Rest(&s, 120);
     uint64_t hash = Host_Hash(&s.host);
     assert_true(fabs(Curvature(&s.host, s.sheet, 0.0, Width) / theory - 1.0) < 5e-3);
     assert_true(fabs(Curvature(&s.host, part, 0.0, Width) / theory - 1.0) < 5e-3);
-    OK(kiriWorld_Load(s.host.world, bytes, size));
+    OK(kiriWorld_Load(s.host.world, bytes.data, bytes.size));
     Strip_Rest(&s, 120);
     assert_true(Host_Hash(&s.host) == hash);
-    free(bytes);
     Host_Stop(&s.host);
 }
 

@@ -184,8 +184,7 @@ static void StartZigzag(Host* host)
     static const float line[6] = { -0.1f, 0.4f, 0.35f, 0.6f, 0.75f, 0.45f };
     static const float loop[10] = { 0.55f, 0.7f, 0.8f, 0.7f, 0.8f, 0.9f, 0.55f, 0.9f, 0.55f, 0.7f };
     Host_Start(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(host, 4);
     Host_Cut(host, sheet, line, 3);
     Host_Cut(host, sheet, loop, 5);
 }

@@ -10,16 +10,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(IS_SANITIZED)
-enum { IS_SLOW = 1 };
-#else
-enum { IS_SLOW = 0 };
-#endif
+enum { IS_SLOW = IS_SANITIZED };
 
 /* ---- A guard against endless loops ---- */
 

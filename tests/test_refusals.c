@@ -93,11 +93,6 @@ static void Finish(Stand* s)
     }
 }
 
-static uint64_t LayoutOf(const Stand* s)
-{
-    return Layout_HashAll(s->tape.host.world);
-}
-
 typedef struct Outcome {
     kiriResult result;
     uint64_t hash, look, end, layout;
@@ -111,7 +106,7 @@ static void After(Stand* s, Outcome* outcome)
     outcome->live = s->tape.host.live;
     Finish(s);
     outcome->end = Host_Hash(&s->tape.host);
-    outcome->layout = LayoutOf(s);
+    outcome->layout = Layout_HashAll(s->tape.host.world);
     outcome->liveAtEnd = s->tape.host.live;
 }
 
@@ -232,7 +227,7 @@ TEST(RefusedAtRandom)
                 refused[stage < 0 ? KIRI_STAGE_COUNT : stage] += 1;
             }
         }
-        assert_true(LayoutOf(&s) == layout);
+        assert_true(Layout_HashAll(s.tape.host.world) == layout);
     }
     for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
         print_message("%d ticks refused at stage %s\n", refused[stage], kiriGetStageName(stage));
@@ -241,16 +236,6 @@ TEST(RefusedAtRandom)
 }
 
 /* ---- Snapshots after a refused tick ---- */
-
-static void RestoreIn(Host* host, const kiriWorld* world)
-{
-    int64_t size;
-    OK(kiriWorld_Snapshot(world, NULL, 0, &size));
-    FREED(void, bytes) = malloc((size_t)size);
-    assert_non_null(bytes);
-    OK(kiriWorld_Snapshot(world, bytes, size, &size));
-    OK(kiriWorld_Restore(host->world, bytes, size));
-}
 
 /* Restores what a snapshot has then, and goes on with both worlds. False where nothing was refused. */
 static bool GoOnFromSnapshot(int32_t work, int64_t n)
@@ -262,7 +247,7 @@ static bool GoOnFromSnapshot(int32_t work, int64_t n)
     bool isRefused = CallPoorly(&s, &everyCall[TICK], n, n % 2 == 0) == KIRI_ERROR_MEMORY;
     if (isRefused) {
         Host_Start(&other);
-        RestoreIn(&other, s.tape.host.world);
+        World_Copy(other.world, s.tape.host.world, kiriWorld_Snapshot);
         for (int tick = 0; tick < 3; ++tick) {
             assert_true(Host_Hash(&other) == Host_Hash(&s.tape.host));
             OK(Make(&s, "kiriWorld_Tick"));

@@ -89,25 +89,7 @@ static void GoOn(Weather* weather)
 
 /* ---- Twins ---- */
 
-typedef kiriResult WriteFn(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 typedef kiriResult ReadFn(kiriWorld* world, const void* bytes, int64_t size);
-
-typedef struct Bytes {
-    uint8_t* data;
-    int64_t size;
-} Bytes;
-
-static Bytes Write(const kiriWorld* world, WriteFn* write)
-{
-    Bytes bytes = { NULL, 0 };
-    OK(write(world, NULL, 0, &bytes.size));
-    bytes.data = malloc((size_t)bytes.size);
-    assert_non_null(bytes.data);
-    int64_t size = 0;
-    OK(write(world, bytes.data, bytes.size, &size));
-    assert_int_equal(size, bytes.size);
-    return bytes;
-}
 
 static bool IsWorkAtHand(const kiriWorld* world)
 {
@@ -144,7 +126,8 @@ static bool MayDiffer(const kiriWorld* a, const kiriWorld* b)
 static void CheckTwin(const Weather* weather, Host* other, const char* how, WriteFn* write, ReadFn* read)
 {
     Storm a = weather->storm, b = weather->storm;
-    Bytes start = Write(a.world, kiriWorld_Snapshot), bytes = Write(a.world, write);
+    SCOPED_AS(Bytes, start, Bytes_Free) = World_Write(a.world, kiriWorld_Snapshot);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(a.world, write);
     b.world = other->world;
     if (read(b.world, bytes.data, bytes.size) != KIRI_OK) {
         fail_msg("world %d (%s), tick %d, after %s: %s", (int)weather->world, weather->storm.type->name,
@@ -160,8 +143,6 @@ static void CheckTwin(const Weather* weather, Host* other, const char* how, Writ
         AssertAlike(weather, how, &a, &b, later);
     }
     OK(kiriWorld_Restore(a.world, start.data, start.size));
-    free(start.data);
-    free(bytes.data);
 }
 
 static void CheckTwins(const Weather* weather, Host* other)
@@ -172,7 +153,7 @@ static void CheckTwins(const Weather* weather, Host* other)
     int64_t size = 0;
     bool isAtHand = IsWorkAtHand(world);
     assert_int_equal(kiriWorld_Save(world, NULL, 0, &size), isAtHand ? KIRI_PENDING : KIRI_OK);
-    Bytes start = Write(world, kiriWorld_Snapshot);
+    SCOPED_AS(Bytes, start, Bytes_Free) = World_Write(world, kiriWorld_Snapshot);
     if (isAtHand) {
         OK(kiriWorld_FinishCuts(world));
         assert_false(IsWorkAtHand(world));
@@ -182,7 +163,6 @@ static void CheckTwins(const Weather* weather, Host* other)
     }
     CheckTwin(weather, other, "loaded", kiriWorld_Save, kiriWorld_Load);
     OK(kiriWorld_Restore(world, start.data, start.size));
-    free(start.data);
 }
 
 static void PlayWorld(int32_t world)
@@ -241,12 +221,6 @@ static void StartCut(Host* host, const kiriBudget* budget)
     OK(kiriWorld_SetBudget(host->world, budget));
 }
 
-/* Triangles, frames, pieces and the weights of vertices: not where they are. */
-static uint64_t LayoutOf(const Host* host)
-{
-    return Layout_HashInForce(host->world, Host_SheetAt(host, 0));
-}
-
 /* In whatever step a tick has left the work, and where memory is refused first: the cut does the same. */
 TEST(FinishedCuts)
 {
@@ -257,7 +231,7 @@ TEST(FinishedCuts)
     StartCut(&host, &little);
     int32_t refused = 0;
     for (int32_t tick = 0; Host_Tick(&host, 0.01f, 1) == KIRI_PENDING; ++tick) {
-        Bytes snapshot = Write(host.world, kiriWorld_Snapshot);
+        Bytes snapshot = World_Write(host.world, kiriWorld_Snapshot);
         for (int64_t n = 0; n < 3; ++n) {
             host.failAt = n > 0 ? host.calls + tick % 7 + n : -1;
             host.failOnce = true;
@@ -267,7 +241,8 @@ TEST(FinishedCuts)
             refused += result != KIRI_OK;
             OK(kiriWorld_FinishCuts(host.world));
             Host_Validate(&host);
-            assert_true(LayoutOf(&host) == LayoutOf(&whole));
+            uint64_t layout = Layout_HashInForce(host.world, Host_SheetAt(&host, 0));
+            assert_true(layout == Layout_HashInForce(whole.world, Host_SheetAt(&whole, 0)));
             OK(kiriWorld_Restore(host.world, snapshot.data, snapshot.size));
         }
         free(snapshot.data);
@@ -308,7 +283,7 @@ TEST(BytesCutShort)
 {
     HOST(host);
     StartSmall(&host);
-    Bytes bytes = Write(host.world, kiriWorld_Save);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     for (int64_t size = 0; size < bytes.size; ++size) {
         uint8_t* part = malloc((size_t)size + 1); /* so that a sanitizer sees who reads beyond */
@@ -318,14 +293,13 @@ TEST(BytesCutShort)
     }
     assert_int_equal(Host_Hash(&host), hash);
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, bytes.size), KIRI_OK);
-    free(bytes.data);
 }
 
 TEST(BitsThatChange)
 {
     HOST(host);
     StartSmall(&host);
-    Bytes bytes = Write(host.world, kiriWorld_Save);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     for (int64_t bit = 0; bit < 8 * bytes.size; bit += bit < 8 * 256 ? 1 : 61) {
         bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
@@ -333,18 +307,16 @@ TEST(BitsThatChange)
         bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
     }
     AssertRefused(&host, (const uint8_t*)"a picture, say, or whatever a host has there instead", 50, hash);
-    free(bytes.data);
 }
 
 TEST(Misuse)
 {
     HOST(host);
     StartSmall(&host);
-    Bytes bytes = Write(host.world, kiriWorld_Save);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     int64_t size = 0;
     FREED(uint8_t, few) = malloc((size_t)bytes.size - 1);
-    assert_int_equal(kiriWorld_Save(host.world, NULL, 0, NULL), KIRI_ERROR_ARGUMENT);
     for (int64_t capacity = bytes.size - 1; capacity >= 0; capacity = capacity / 2 - (capacity == 0)) {
         memset(few, 0x77, (size_t)bytes.size - 1);
         size = 0;
@@ -354,12 +326,8 @@ TEST(Misuse)
             assert_int_equal(few[n], 0x77); /* nothing is written */
         }
     }
-    assert_int_equal(kiriWorld_Load(host.world, NULL, 100), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, -1), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriWorld_Save(NULL, NULL, 0, &size), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriWorld_Load(NULL, bytes.data, bytes.size), KIRI_ERROR_ARGUMENT);
     assert_int_equal(Host_Hash(&host), hash);
-    free(bytes.data);
 }
 
 /* Which is said before anything is read: another version may have written the same bytes for other things. */
@@ -368,7 +336,7 @@ TEST(OtherVersions)
     enum { FORMAT = 8, LIBRARY = 12 };
     HOST(host);
     StartSmall(&host);
-    Bytes bytes = Write(host.world, kiriWorld_Save);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     const int places[] = { FORMAT, LIBRARY };
     for (int k = 0; k < 2; ++k) {
@@ -378,7 +346,6 @@ TEST(OtherVersions)
         bytes.data[places[k]] -= 1;
     }
     assert_int_equal(kiriWorld_Load(host.world, bytes.data, bytes.size), KIRI_OK);
-    free(bytes.data);
 }
 
 /* Writing asks for none; reading fails as a whole. */
@@ -389,7 +356,7 @@ static void CheckRefusedMemory(WriteFn* write, ReadFn* read)
     StartSmall(&other);
     Host_Tick(&other, 1.0f / 60.0f, 1);
     int64_t calls = host.calls;
-    Bytes bytes = Write(host.world, write);
+    SCOPED_AS(Bytes, bytes, Bytes_Free) = World_Write(host.world, write);
     assert_int_equal(host.calls, calls);
     uint64_t hash = Host_Hash(&other);
     kiriResult result = KIRI_ERROR_MEMORY;
@@ -406,7 +373,6 @@ static void CheckRefusedMemory(WriteFn* write, ReadFn* read)
     }
     other.failAt = -1;
     assert_true(Host_Hash(&other) == Host_Hash(&host));
-    free(bytes.data);
     Host_Stop(&host);
     Host_Stop(&other);
 }
@@ -422,7 +388,8 @@ TEST(NoSnapshots)
 {
     HOST(host);
     StartSmall(&host);
-    Bytes snapshot = Write(host.world, kiriWorld_Snapshot), save = Write(host.world, kiriWorld_Save);
+    SCOPED_AS(Bytes, snapshot, Bytes_Free) = World_Write(host.world, kiriWorld_Snapshot);
+    SCOPED_AS(Bytes, save, Bytes_Free) = World_Write(host.world, kiriWorld_Save);
     uint64_t hash = Host_Hash(&host);
     for (int32_t byte = 0; byte < 24; ++byte) {
         snapshot.data[byte] ^= 1;
@@ -432,12 +399,9 @@ TEST(NoSnapshots)
     assert_int_equal(kiriWorld_Restore(host.world, snapshot.data, snapshot.size - 1), KIRI_ERROR_DATA);
     assert_int_equal(kiriWorld_Restore(host.world, snapshot.data, 0), KIRI_ERROR_DATA);
     assert_int_equal(kiriWorld_Restore(host.world, save.data, save.size), KIRI_ERROR_DATA);
-    assert_int_equal(kiriWorld_Restore(host.world, NULL, 100), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriWorld_Load(host.world, snapshot.data, snapshot.size), KIRI_ERROR_DATA);
     assert_true(Host_Hash(&host) == hash);
     OK(kiriWorld_Restore(host.world, snapshot.data, snapshot.size));
-    free(snapshot.data);
-    free(save.data);
 }
 
 /* ---- Memory in proportion ---------------------------------------------------------------------------------------- */
@@ -449,7 +413,7 @@ static int64_t MostMemory(const Save* good, int32_t number)
 {
     int64_t most = 0;
     for (int64_t at = SAVED_HEAD_BYTES; at + 4 <= good->size - SAVED_SUM_BYTES; ++at) {
-        SavedHost host = { 0 };
+        Host host;
         kiriWorldDef def = SavedHost_Def(&host);
         kiriWorld* world = NULL;
         Save save = Saved_Copy(good);
@@ -457,9 +421,9 @@ static int64_t MostMemory(const Save* good, int32_t number)
         Saved_MendSum(&save);
         OK(kiriCreateWorld(&def, &world));
         kiriWorld_Load(world, save.bytes, save.size);
-        most = host.most > most ? host.most : most;
+        most = host.peak > most ? host.peak : most;
         kiriDestroyWorld(world);
-        assert_int_equal(host.held, 0);
+        assert_int_equal(host.bytes, 0);
         free(save.bytes);
     }
     return most;

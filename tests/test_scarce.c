@@ -7,19 +7,12 @@
 #include "../samples/scene.h"
 
 /* malloc of the whole program is refused too, where the C library lets us stand in front of it: that of Eigen. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(IS_SANITIZED)
-#define REFUSES_MALLOC 1
+#if REPLACES_MALLOC
 extern void* __libc_malloc(size_t bytes);
 extern void __libc_free(void* pointer);
 #define TAKE(bytes) __libc_malloc(bytes)
 #define GIVE_BACK(pointer) __libc_free(pointer)
 #else
-#define REFUSES_MALLOC 0
 #define TAKE(bytes) malloc(bytes)
 #define GIVE_BACK(pointer) free(pointer)
 #endif
@@ -84,7 +77,7 @@ static bool IsRefused(int64_t bytes)
     return isRefused;
 }
 
-#if REFUSES_MALLOC
+#if REPLACES_MALLOC
 void* malloc(size_t bytes)
 {
     if (IsRefused(-1 - (int64_t)bytes)) {

@@ -99,11 +99,10 @@ TEST(WaitingCutDoesNotWake)
     static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
     const kiriBudget budget = { .triangles = KIRI_LEAST_TRIANGLES, .cells = 40, .samples = 20 };
     kiriSheet sheets[SHEETS];
-    kiriSheetDef def = Host_SmallDef();
     START_HOST(host);
     World_StopGravity(host.world);
     for (int k = 0; k < SHEETS; ++k) {
-        sheets[k] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        sheets[k] = Host_AddSmall(&host, 4);
     }
     assert_true(TicksToSleep(&host, sheets[SHEETS - 1], 100) < 100);
     OK(kiriWorld_SetBudget(host.world, &budget));

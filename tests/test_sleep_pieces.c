@@ -9,18 +9,13 @@ static void Tick(Host* host)
     OK(Host_Tick(host, dt, 2));
 }
 
-static kiriPieceState PieceOf(const Host* host, kiriSheet sheet, int32_t piece)
-{
-    return World_PieceState(host->world, sheet, piece);
-}
-
 /* One bit for each piece that is awake. */
 static uint32_t Awake(const Host* host, kiriSheet sheet)
 {
     uint32_t bits = 0;
     int32_t awake, pieces = Host_Counts(host, sheet).pieces;
     for (int32_t p = 0; p < pieces; ++p) {
-        bits |= PieceOf(host, sheet, p).asleep ? 0u : 1u << p;
+        bits |= World_PieceState(host->world, sheet, p).asleep ? 0u : 1u << p;
     }
     OK(kiriSheet_IsAwake(host->world, sheet, &awake));
     assert_int_equal(awake, bits != 0);
@@ -121,8 +116,8 @@ TEST(OneByOne)
         Tick(&hosts[0]);
         Tick(&hosts[1]);
         for (int i = 0; i < STRIPS; ++i) {
-            kiriPieceState one = PieceOf(&hosts[0], sheets[0], StripAt(&hosts[0], sheets[0], i));
-            kiriPieceState other = PieceOf(&hosts[1], sheets[1], StripAt(&hosts[1], sheets[1], i));
+            kiriPieceState one = World_PieceState(hosts[0].world, sheets[0], StripAt(&hosts[0], sheets[0], i));
+            kiriPieceState other = World_PieceState(hosts[1].world, sheets[1], StripAt(&hosts[1], sheets[1], i));
             assert_false(other.asleep);
             if (one.asleep && asleepAt[i] == 0) {
                 asleepAt[i] = tick;
@@ -392,12 +387,12 @@ TEST(ObstacleWakesWhatIsNear)
         Tick(&host);
     }
     assert_true(tick > 10 && tick < 60);
-    double height = PieceOf(&host, sheet, StripAt(&host, sheet, 1)).center[2];
+    double height = World_PieceState(host.world, sheet, StripAt(&host, sheet, 1)).center[2];
     for (int k = 0; k < 30; ++k) {
         assert_int_equal(Awake(&host, sheet), near);
         Tick(&host);
     }
-    assert_true(PieceOf(&host, sheet, StripAt(&host, sheet, 1)).center[2] > height + 0.05);
+    assert_true(World_PieceState(host.world, sheet, StripAt(&host, sheet, 1)).center[2] > height + 0.05);
 }
 
 /* Away from under a piece, an obstacle wakes that. */
@@ -577,7 +572,7 @@ TEST(PiecesThatTouch)
         assert_true((awake & both) == 0 || (awake & both) == both);
     }
     assert_true(together > HALF_SECOND && (awake & both) == 0 && awake == Bit(&host, sheet, 3));
-    double above = PieceOf(&host, sheet, StripAt(&host, sheet, 0)).center[2];
+    double above = World_PieceState(host.world, sheet, StripAt(&host, sheet, 0)).center[2];
     assert_true(above > 0.01 && above < 0.03);
     /* What wakes one of them wakes the other. */
     OK(kiriFrame_ApplyForce(host.world, FrameAt(&host, sheet, 1), (const float[3]){ 0.0f, 0.0f, 1e-3f }, noVector));

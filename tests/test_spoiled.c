@@ -19,27 +19,12 @@ typedef struct Spoiler {
 
 /* ---- Saves ---- */
 
-typedef struct SavedBytes {
-    uint8_t* data;
-    int64_t size;
-} SavedBytes;
-
-static SavedBytes Save(const Host* host)
-{
-    SavedBytes bytes = { NULL, 0 };
-    OK(kiriWorld_Save(host->world, NULL, 0, &bytes.size));
-    bytes.data = malloc((size_t)bytes.size);
-    OK(kiriWorld_Save(host->world, bytes.data, bytes.size, &bytes.size));
-    return bytes;
-}
-
 /* A sheet with a slit. */
 static void StartCut(Host* host)
 {
     const float slit[4] = { 0.1f, 0.3f, 0.8f, 0.36f };
     Host_Start(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(host, 4);
     Host_Cut(host, sheet, slit, 2);
     OK(Host_Tick(host, 0.01f, 1));
 }
@@ -48,9 +33,9 @@ static void StartCut(Host* host)
 static void CheckRefused(Host* host, const Spoiler* spoiler)
 {
     START_HOST(other);
-    SavedBytes good = Save(host);
+    SCOPED_AS(Bytes, good, Bytes_Free) = World_Write(host->world, kiriWorld_Save);
     spoiler->spoil(host->world->sheets.data[0]);
-    SavedBytes bad = Save(host);
+    SCOPED_AS(Bytes, bad, Bytes_Free) = World_Write(host->world, kiriWorld_Save);
     uint64_t before = Host_Hash(&other);
     if (kiriWorld_Load(other.world, bad.data, bad.size) != KIRI_ERROR_DATA || Host_Hash(&other) != before) {
         fail_msg("%s: the save is not refused", spoiler->name);
@@ -59,8 +44,6 @@ static void CheckRefused(Host* host, const Spoiler* spoiler)
     OK(kiriWorld_Load(host->world, good.data, good.size));
     OK(kiriWorld_Load(other.world, good.data, good.size));
     Host_Validate(&other);
-    free(bad.data);
-    free(good.data);
 }
 
 static void CheckAll(Host* host, const Spoiler* spoilers, size_t count)
@@ -73,7 +56,7 @@ static void CheckAll(Host* host, const Spoiler* spoilers, size_t count)
 
 #define CHECK_ALL_REFUSED(host, spoilers) CheckAll(host, spoilers, sizeof(spoilers) / sizeof((spoilers)[0]))
 
-/* ---- The mesh ---- */
+/* ---- The mesh and frames ---- */
 
 SPOIL(TwinIsAnother, sheet->mesh.triangles.data[0].twin[1] = 3 * sheet->mesh.triangles.count - 1)
 SPOIL(SourceIsFar, sheet->mesh.triangles.data[0].source = 1 << 28)
@@ -88,46 +71,20 @@ static void BlockHasNoCorners(kiriSheetData* sheet)
 }
 
 SPOIL(CornerIsNone, sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE)
+SPOIL(FrameIsOfNoPiece, sheet->layout.framePiece.data[0] = 1 << 28)
+SPOIL(FrameHasNoPiece, sheet->layout.framePiece.count -= 1)
+SPOIL(WeightIsNotFinite, sheet->shape.rigidWeight = HUGE_VAL)
+SPOIL(SiteIsFarFromItsAnchor, sheet->frames.data[0].site.at.x += 0.5)
 
-TEST(Mesh)
+TEST(MeshAndFrames)
 {
     static const Spoiler spoilers[] = {
         { "TwinIsAnother", TwinIsAnother },         { "SourceIsFar", SourceIsFar },
         { "SourceIsBelow", SourceIsBelow },         { "SourcesAreTheSame", SourcesAreTheSame },
         { "OriginalsAreMore", OriginalsAreMore },   { "BlockIsFar", BlockIsFar },
         { "BlockHasNoCorners", BlockHasNoCorners }, { "CornerIsNone", CornerIsNone },
-    };
-    Host host;
-    StartCut(&host);
-    CHECK_ALL_REFUSED(&host, spoilers);
-}
-
-/* ---- The layout ---- */
-
-SPOIL(FrameIsOfNoPiece, sheet->layout.framePiece.data[0] = 1 << 28)
-SPOIL(FrameHasNoPiece, sheet->layout.framePiece.count -= 1)
-
-TEST(Layout)
-{
-    static const Spoiler spoilers[] = {
-        { "FrameIsOfNoPiece", FrameIsOfNoPiece },
-        { "FrameHasNoPiece", FrameHasNoPiece },
-    };
-    Host host;
-    StartCut(&host);
-    CHECK_ALL_REFUSED(&host, spoilers);
-}
-
-/* ---- Frames ---- */
-
-SPOIL(WeightIsNotFinite, sheet->shape.rigidWeight = HUGE_VAL)
-SPOIL(SiteIsFarFromItsAnchor, sheet->frames.data[0].site.at.x += 0.5)
-
-TEST(Frames)
-{
-    static const Spoiler spoilers[] = {
-        { "WeightIsNotFinite", WeightIsNotFinite },
-        { "SiteIsFarFromItsAnchor", SiteIsFarFromItsAnchor },
+        { "FrameIsOfNoPiece", FrameIsOfNoPiece },   { "FrameHasNoPiece", FrameHasNoPiece },
+        { "WeightIsNotFinite", WeightIsNotFinite }, { "SiteIsFarFromItsAnchor", SiteIsFarFromItsAnchor },
     };
     Host host;
     StartCut(&host);
@@ -187,8 +144,7 @@ static void StartPieces(Host* host)
 {
     const float through[4] = { -0.2f, 0.45f, 1.2f, 0.55f };
     Host_Start(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(host, 4);
     Host_Cut(host, sheet, through, 2);
     OK(Host_Tick(host, 0.01f, 1));
     assert_int_equal(host->world->sheets.data[0]->layout.pieces.count, 2);

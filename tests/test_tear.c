@@ -393,24 +393,9 @@ TEST(SavesAndSnapshotsGoOn)
         START_HOST(host);
         START_HOST(other);
         Trouser t, copy;
-        int64_t size = 0;
         PlayTo(&t, host.world, BEFORE);
         copy = t;
-        if (kind == 0) {
-            OK(kiriWorld_Save(host.world, NULL, 0, &size));
-        } else {
-            OK(kiriWorld_Snapshot(host.world, NULL, 0, &size));
-        }
-        uint8_t* bytes = malloc((size_t)size);
-        assert_non_null(bytes);
-        if (kind == 0) {
-            OK(kiriWorld_Save(host.world, bytes, size, &size));
-            OK(kiriWorld_Load(other.world, bytes, size));
-        } else {
-            OK(kiriWorld_Snapshot(host.world, bytes, size, &size));
-            OK(kiriWorld_Restore(other.world, bytes, size));
-        }
-        free(bytes);
+        World_Copy(other.world, host.world, kind == 0 ? kiriWorld_Save : kiriWorld_Snapshot);
         int32_t vertices = Host_Mesh(&host, t.sheet).vertexCount;
         for (int32_t n = 0; n < AFTER; ++n) {
             assert_true(Trouser_Tick(&t, host.world, 0.02) >= 0);

@@ -522,8 +522,7 @@ TEST(PinsWhileTheMeshIsCut)
     const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 0, 0, 0 };
     int32_t frames[400];
     START_HOST(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    kiriSheet sheet = Host_AddSmall(&host, 8);
     OK(kiriWorld_SetBudget(host.world, &budget));
     Host_Cut(&host, sheet, line, 2);
     while (Host_Tick(&host, 0.01f, 1) == KIRI_PENDING) {
@@ -538,8 +537,7 @@ TEST(PinsAfterATickWithoutMemory)
     int32_t frames[400];
     kiriResult result = KIRI_ERROR_MEMORY;
     START_HOST(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    kiriSheet sheet = Host_AddSmall(&host, 8);
     Host_Cut(&host, sheet, line, 2);
     for (int calls = 0; result == KIRI_ERROR_MEMORY; ++calls) {
         host.failAt = host.calls + calls;

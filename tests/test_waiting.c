@@ -82,17 +82,6 @@ static void Act(Host* host, uint32_t* seed, int32_t tick)
 
 /* ---- Saves ---- */
 
-/* Restores a world from its own snapshot: drops all caches. */
-static void DropCaches(Host* host)
-{
-    int64_t size, again;
-    OK(kiriWorld_Snapshot(host->world, NULL, 0, &size));
-    FREED(void, bytes) = malloc((size_t)size);
-    OK(kiriWorld_Snapshot(host->world, bytes, size, &again));
-    assert_int_equal(size, again);
-    OK(kiriWorld_Restore(host->world, bytes, size));
-}
-
 /* One world goes on, the other one is loaded before each tick, or before some. */
 static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
 {
@@ -104,7 +93,7 @@ static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
     for (int32_t tick = 0; tick <= LAST_ACT || results[0] == KIRI_PENDING; ++tick) {
         assert_in_range(tick, 0, MOST_TICKS);
         if (Random(&times) % often == 0) {
-            DropCaches(&hosts[1]);
+            World_Copy(hosts[1].world, hosts[1].world, kiriWorld_Snapshot); /* drops all caches */
         }
         for (int k = 0; k < 2; ++k) {
             Act(&hosts[k], &seeds[k], tick);

@@ -170,17 +170,14 @@ TEST(AirDampingFades)
     World_StopGravity(host.world);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     double start = Host_Totals(&host, sheet).momentum[1];
-    for (int tick = 0; tick < 500; ++tick) {
-        Tick(&host, 0.001f, 1);
-    }
+    Host_Ticks(&host, 500, 0.001f, 1);
     AssertNear(Host_Totals(&host, sheet).momentum[1] / start, 0.36788, 2e-3, "exp(-1)"); /* first order in the step */
 }
 
 TEST(FramesAreHeld)
 {
     START_HOST(host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+    kiriSheet sheet = Host_AddSmall(&host, 4);
     kiriFrame frames[4];
     kiriFrameState held;
     int32_t count = World_GetFrames(host.world, sheet, frames, 4);
@@ -207,9 +204,7 @@ TEST(FramesAreHeld)
     }
     AssertNear(held.restPoint[0], 0.1875, 1e-6, "rest point");
     OK(kiriFrame_Hold(host.world, frames[0], NULL, NULL));
-    for (int tick = 0; tick < 20; ++tick) {
-        Tick(&host, 0.01f, 1);
-    }
+    Host_Ticks(&host, 20, 0.01f, 1);
     OK(kiriFrame_GetState(host.world, frames[0], &held));
     assert_true(held.held == 0 && held.position[2] < 0.0f);
 }
@@ -240,9 +235,7 @@ TEST(ContactsCarry)
     kiriTotals totals = Host_Totals(&host, sheet);
     assert_true(lowest > -0.05 && totals.center[2] < 0.05 && totals.center[2] > -0.02);
     assert_true(totals.kineticEnergy < 1e-5);
-    for (int tick = 0; tick < 60; ++tick) {
-        Tick(&host, 1.0f / 60.0f, 1); /* contacts are gone after their tick */
-    }
+    Host_Ticks(&host, 60, 1.0f / 60.0f, 1); /* contacts are gone after their tick */
     assert_true(Host_Totals(&host, sheet).center[2] < -1.0);
 }
 
@@ -411,9 +404,7 @@ TEST(TwoParts)
     AssertNear(left, 0.25, 1e-6, "left part");
     AssertNear(sum, area, 1e-6, "both parts");
     Host_Pin(&host, sheet, 0.1f, 0.5f, 0.1f, 0.5f, 0.0f);
-    for (int tick = 0; tick < 100; ++tick) {
-        Tick(&host, 0.01f, 1);
-    }
+    Host_Ticks(&host, 100, 0.01f, 1);
     kiriFrameState hanging = World_FrameState(host.world, frames[0]);
     kiriFrameState falling = World_FrameState(host.world, frames[1]);
     assert_true(fabsf(hanging.position[2] - falling.position[2]) > 2.0f);

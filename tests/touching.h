@@ -196,4 +196,11 @@ static inline void Touching_Tick(Touching* t, Plane* plane)
     }
 }
 
+static inline void Touching_Ticks(Touching* t, Plane* plane, int count)
+{
+    for (int tick = 0; tick < count; ++tick) {
+        Touching_Tick(t, plane);
+    }
+}
+
 #endif
