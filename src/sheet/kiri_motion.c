@@ -163,6 +163,24 @@ void kiriMotion_EndTurns(kiriSheetData* sheet)
     sheet->turns.waiting = 0;
 }
 
+static void SortMoved(kiriSheetData* sheet)
+{
+    kiriTouches_Sort(sheet);
+    kiriSheet_SumRest(sheet);
+}
+
+/* Lists the pieces that are awake as those to move. */
+static void ListAwakePieces(kiriSheetData* sheet)
+{
+    KIRI_ASSERT(sheet->solver->bodies.bodies.count == sheet->layout.pieces.count);
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
+        kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
+    }
+    if (kiriSolver_ListMoved(sheet->solver)) {
+        SortMoved(sheet);
+    }
+}
+
 /* Chooses the pieces that the tick moves. Host contacts of a sleeping piece are compared here; obstacles and other
    sheets wake it when they move. Returns a frame of the first deferred piece, or 0. */
 static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
@@ -175,16 +193,11 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     if (sheet->rest.asleep) {
         return 0;
     }
-    KIRI_ASSERT(sheet->solver->bodies.bodies.count == sheet->layout.pieces.count);
     FallAsleep(sheet);
-    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
-        kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
-    }
-    bool areOther = kiriSolver_ListMoved(sheet->solver);
+    ListAwakePieces(sheet);
     int32_t next = systems != NULL ? DeferBodies(sheet, systems) : 0;
-    if (areOther || sheet->turns.waiting > 0) {
-        kiriTouches_Sort(sheet);
-        kiriSheet_SumRest(sheet);
+    if (sheet->turns.waiting > 0) {
+        SortMoved(sheet);
     }
     return next;
 }
@@ -233,6 +246,51 @@ int64_t kiriMotion_SystemsLeft(const kiriQuota* quota, int64_t items)
 static bool IsRead(const kiriSheetData* sheet)
 {
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;
+}
+
+int32_t kiriMotion_Iterations(const kiriSheetData* sheet)
+{
+    int32_t given = sheet->settings.iterations;
+    return kiriTears_AreGrowing(sheet) ? kiriMax(given, KIRI_TEAR_ITERATIONS) : given;
+}
+
+bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQuota* systems)
+{
+    kiriTears* tears = &sheet->tears;
+    bool isFree = sheet->touches.last.touches.count == 0 && !kiriSettings_Yield(&sheet->settings);
+    KIRI_ASSERT(tears->before.count == 0);
+    if (sheet->rest.asleep || !isFree || tears->found.count == 0) {
+        return true;
+    }
+    if (!kiriArray_Reserve(sheet->memory, &tears->before, sheet->frames.count)) {
+        return false;
+    }
+    ListAwakePieces(sheet);
+    int32_t iterations = kiriMotion_Iterations(sheet), solved = 0;
+    int64_t items = ItemsOfMoved(sheet), most = kiriMin(systems->left / (2 * items), KIRI_MOST_ROUNDS);
+    if (most < iterations) {
+        return true; /* the tick needs them more */
+    }
+    tears->before.count = sheet->frames.count;
+    memcpy(tears->before.data, sheet->frames.data, sizeof(kiriFrameData) * (size_t)sheet->frames.count);
+    kiriPins_WriteRows(sheet, 0.0, 1.0);
+    kiriSystem system = MakeSystem(sheet, gravity);
+    system.contactCount = 0;
+    system.reactions = (kiriReactions){ 0 };
+    kiriSolver_ShareRows(sheet->solver, &system);
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.bodies) {
+        solved = kiriMax(kiriSolver_Step(sheet->solver, &system, *at, dt, iterations, (int32_t)most), solved);
+    }
+    return kiriQuota_Take(systems, solved * items);
+}
+
+void kiriMotion_Return(kiriSheetData* sheet)
+{
+    if (sheet->tears.before.count > 0) {
+        KIRI_ASSERT(sheet->tears.before.count == sheet->frames.count);
+        memcpy(sheet->frames.data, sheet->tears.before.data, sizeof(kiriFrameData) * (size_t)sheet->frames.count);
+        sheet->tears.before.count = 0;
+    }
 }
 
 int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems,
@@ -287,7 +345,7 @@ bool kiriMotion_Wait(kiriSheetData* sheet, double dt)
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)
 {
     int64_t items = kiriSolver_ItemsOf(sheet->solver->allWork + sheet->touches.found.count);
-    return substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS) * items;
+    return substeps * (kiriMotion_Iterations(sheet) + KIRI_EXTRA_SYSTEMS) * items;
 }
 
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)

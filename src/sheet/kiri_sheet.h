@@ -472,6 +472,7 @@ typedef struct kiriTears {
     kiriIndices order;                     /* of found, by their points */
     KIRI_ARRAY(kiriStrainOffset) pulls;    /* of links: their strains less their offsets */
     KIRI_ARRAY(kiriPlasticRegion) regions; /* of frames: the membrane strains that fit their links */
+    KIRI_ARRAY(kiriFrameData) before;      /* frames before they went where they will be; none: they are there */
 } kiriTears;
 
 /* A part of a seam in the rest plane, between two stitches. */

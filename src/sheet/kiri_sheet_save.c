@@ -301,7 +301,7 @@ static void MoveCounts(kiriArchive* archive, void* object)
 /* A load finds the tips again. */
 KIRI_TABLE(TearsTable, kiriTears, {
     KIRI_DROPPED(areListed),
-    KIRI_ROOMS(found, order, pulls, regions),
+    KIRI_ROOMS(found, order, pulls, regions, before),
 })
 
 KIRI_TABLE(SheetTable, kiriSheetData, {

@@ -8,6 +8,7 @@
 #define REACH 2.0       /* spacings ahead over which the stress is taken */
 #define TURN 1.5        /* rad: of a tear over a spacing, at most */
 #define PACE 0.5        /* spacings in a tick, at most */
+#define LEAST_PACE 0.05 /* spacings, where the pace is lower: each step shakes the sheet */
 #define LEAST_STEP 4.0  /* snap distances */
 #define STRESS_SHARE 3.0 /* spacings: the stress ahead opens a crack of about this length */
 
@@ -42,11 +43,14 @@ static bool IsTipBefore(const void* context, int32_t a, int32_t b)
     return p.x != q.x ? p.x < q.x : p.y < q.y;
 }
 
-/* Lists the ends of slits, and sharp notches. Their order does not depend on how the mesh came about. */
-static bool ListTips(kiriSheetData* sheet)
+/* The ends of slits, and sharp notches. Their order does not depend on how the mesh came about. */
+bool kiriTears_List(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
     kiriTears* tears = &sheet->tears;
+    if (tears->areListed) {
+        return true;
+    }
     tears->found.count = tears->order.count = 0;
     KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriTearTip tip = { kiriMesh_At(mesh, v), { 0.0, 0.0 }, v };
@@ -112,8 +116,8 @@ static void MeasurePulls(kiriSheetData* sheet)
 bool kiriTears_Measure(kiriSheetData* sheet)
 {
     kiriTears* tears = &sheet->tears;
-    if ((!tears->areListed && !ListTips(sheet)) ||
-        !kiriArray_Reserve(sheet->memory, &tears->pulls, sheet->links.links.count) ||
+    KIRI_ASSERT(tears->areListed);
+    if (!kiriArray_Reserve(sheet->memory, &tears->pulls, sheet->links.links.count) ||
         !kiriArray_Reserve(sheet->memory, &tears->regions, sheet->frames.count)) {
         return false;
     }
@@ -358,8 +362,10 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     if (!(release > taken)) {
         return at;
     }
-    double step = kiriMin(PACE * spacing * (1.0 - taken / release), most);
-    *along = AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, 2.0 * opens / release);
+    double step = kiriMin(spacing * (LEAST_PACE + PACE * (1.0 - taken / release)), most);
+    /* Legs that are taut pull along the sheet: their stress grows with the square of the release. */
+    double turns = 2.0 * opens * taken / (release * release);
+    *along = AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, turns);
     kiriVec2 way = kiriVec2_Scale(step, *along);
     double part = FreePart(sheet, tip, way), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
     KIRI_ASSERT(part > 0.0 && part <= 1.0);

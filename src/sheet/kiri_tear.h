@@ -9,6 +9,8 @@ KIRI_C_BEGIN
 /* s: strain offsets fade within this while a sheet tears. Those of moved sites hide the force on the tear. */
 #define KIRI_TEAR_FADE 0.01
 
+enum { KIRI_TEAR_ITERATIONS = 12 }; /* of a sheet that tears, at least */
+
 /* Returns true if tears may grow in the sheet. */
 static inline bool kiriTears_MayGrow(const kiriSheetData* sheet)
 {
@@ -21,8 +23,10 @@ bool kiriTears_AreGrowing(const kiriSheetData* sheet);
 /* Returns the distance of frames in a piece, m: the root of the mean area of its regions. */
 double kiriTears_Spacing(const kiriSheetData* sheet, int32_t piece);
 
-/* Finds the tips, in the order of their points, and measures the links. No update may be in progress. Fails on out of
-   memory. */
+/* Finds the tips, in the order of their points. No update may be in progress. Fails on out of memory. */
+bool kiriTears_List(kiriSheetData* sheet);
+
+/* Measures the links. Tips are listed. Fails on out of memory. */
 bool kiriTears_Measure(kiriSheetData* sheet);
 
 /* Returns where a tip goes in this tick, at most this far (m); the tip itself if the sheet holds there. *along: the

@@ -191,7 +191,7 @@ static int32_t ListIslands(kiriWorld* world)
                 kiriIslandBody body = { sheet->solver, &islands->systems.data[i], p };
                 islands->bodies.data[span->first + span->count++] = body;
                 int32_t* iterations = &islands->islands.data[number].iterations;
-                *iterations = kiriMax(sheet->settings.iterations, *iterations);
+                *iterations = kiriMax(kiriMotion_Iterations(sheet), *iterations);
             }
         }
     }
@@ -281,7 +281,7 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
     kiriIslands* islands = &world->islands;
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
-        int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = sheet->settings.iterations;
+        int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = kiriMotion_Iterations(sheet);
         KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, sheet->solver->moved.bodies) {
             kiriIsland* island = IslandOf(islands, i, *at);
             int32_t solved = 0;

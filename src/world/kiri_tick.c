@@ -460,7 +460,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     KIRI_CLEAR(&world->profile);
     world->atWork.count = 0;
     ListActive(world);
-    kiriResult torn = kiriTears_Grow(world, dt);
+    kiriResult torn = kiriTears_Grow(world, dt, &quotas.of[KIRI_QUOTA_ITERATIONS]);
     kiriResult parted = PartAll(world);
     StartAll(world, false);
     kiriQuota aside = SetAside(world, &quotas);

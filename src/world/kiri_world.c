@@ -5,6 +5,7 @@
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_seen.h"
+#include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_tear.h"
 
 #define RESTING 0.5 /* s: a tear that does not go on for this long ends */
@@ -185,11 +186,14 @@ static kiriResult GoOn(kiriWorld* world, kiriSheetData* sheet, const kiriTearTip
 }
 
 /* Measures tears, and a number of other tips, by turns. */
-static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt)
+static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt, kiriQuota* systems)
 {
     const kiriTearing* tearing = &sheet->settings.tearing;
     const kiriTears* tears = &sheet->tears;
-    kiriResult result = kiriTears_Measure(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;
+    bool isMeasured = kiriTears_List(sheet) &&
+                      (world->seams.count > 0 || kiriMotion_Foresee(sheet, world->gravity, dt, systems)) &&
+                      kiriTears_Measure(sheet);
+    kiriResult result = isMeasured ? KIRI_OK : KIRI_ERROR_MEMORY;
     int32_t count = tears->order.count, left = tearing->maxTips > 0 ? tearing->maxTips : TIPS;
     int32_t looks = (int32_t)kiriMin((int64_t)LOOKS * left, (int64_t)count);
     int32_t first = count > 0 ? (int32_t)(world->ticks * looks % count) : 0;
@@ -213,15 +217,16 @@ static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt)
             left -= 1;
         }
     }
+    kiriMotion_Return(sheet);
     return result;
 }
 
-kiriResult kiriTears_Grow(kiriWorld* world, double dt)
+kiriResult kiriTears_Grow(kiriWorld* world, double dt, kiriQuota* systems)
 {
     kiriResult result = KIRI_OK;
     KIRI_EACH_ACTIVE(sheet, world) {
         if (result == KIRI_OK && kiriTears_MayGrow(sheet) && sheet->update->stage == KIRI_NONE) {
-            result = GrowIn(world, sheet, dt);
+            result = GrowIn(world, sheet, dt, systems);
         }
     }
     return result;
