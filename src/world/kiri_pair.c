@@ -88,8 +88,7 @@ bool kiriPairs_AddTouches(kiriWorld* world)
 
 static kiriPlace3 VertexPlace(kiriSheetData* sheet, int32_t vertex)
 {
-    kiriPlace3 place = { sheet, { vertex, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
-    return place;
+    return (kiriPlace3){ sheet, { vertex, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
 }
 
 static kiriPlace3 TrianglePlace(kiriSheetData* sheet, int32_t triangle, const double share[3])
@@ -103,34 +102,20 @@ static kiriVec3 PlaceVelocity(const kiriPlace3* place)
 {
     kiriVec3 velocity = { 0 };
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
-        kiriVec3 v = kiriProbe_Velocity(place->sheet, place->vertex[k]);
-        velocity = kiriVec3_AddScaled(velocity, place->share[k], v);
+        velocity = kiriVec3_AddScaled(velocity, place->share[k], kiriProbe_Velocity(place->sheet, place->vertex[k]));
     }
     return velocity;
 }
 
-/* Returns the key of a touch: of the pair, the probe, and its body. A probe meets a piece once. */
-static uint64_t KeyOfPair(const kiriTouchingPair* pair, const kiriNear* near)
+/* Returns the key of a touch: of two pieces, whose probe it is, and the probe; or of a sheet and vertices that fold. */
+static uint64_t KeyOfTouch(uint64_t a, uint64_t b, uint64_t c, uint64_t d)
 {
-    const uint64_t kind = UINT64_C(3) << 60;
+    const uint64_t words[4] = { a, b, c, d }, kind = UINT64_C(3) << 60;
     uint64_t hash = KIRI_HASH_START;
-    kiriHash_Word(&hash, pair->upper);
-    kiriHash_Word(&hash, pair->lower);
-    kiriHash_Word(&hash, near->body == pair->bodies[0]);
-    kiriHash_Word(&hash, (uint64_t)near->vertex);
+    KIRI_TIMES(k, 4) {
+        kiriHash_Word(&hash, words[k]);
+    }
     return kind | hash >> 4;
-}
-
-/* Makes a touch of a probe of the upper body above a triangle of the lower one. */
-static bool TouchFromAbove(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near,
-                           kiriPairTouch* touch)
-{
-    const kiriBody *upper = &pairs->bodies.data[near->body], *lower = &pairs->bodies.data[near->other];
-    touch->upper = VertexPlace(upper->sheet, near->vertex);
-    touch->lower = TrianglePlace(lower->sheet, near->triangle, near->share);
-    touch->normal = kiriVec3_Scale(pair->side, near->normal);
-    touch->gap = pair->side * near->height;
-    return true;
 }
 
 /* Inside of the lower one the probes of the upper one feel it as well, where they are as near to each other. */
@@ -140,28 +125,13 @@ static bool IsProbeNeeded(const kiriSheetData* lower, const kiriSheetData* upper
            lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
-/* Makes a touch of a probe of the lower body below a triangle of the upper one. */
-static bool TouchFromBelow(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near,
-                           kiriPairTouch* touch)
-{
-    const kiriBody *lower = &pairs->bodies.data[near->body], *upper = &pairs->bodies.data[near->other];
-    kiriVec3 normal = kiriVertex_SkinNormal(lower->sheet, near->vertex);
-    double along = pair->side * kiriVec3_Dot(normal, near->normal);
-    double sign = along >= 0.0 ? 1.0 : -1.0;
-    touch->upper = TrianglePlace(upper->sheet, near->triangle, near->share);
-    touch->lower = VertexPlace(lower->sheet, near->vertex);
-    touch->normal = kiriVec3_Scale(sign, near->normal);
-    touch->gap = -sign * near->height;
-    return fabs(along) > ALONG && IsProbeNeeded(lower->sheet, upper->sheet, near->vertex);
-}
-
 /* Returns the largest approach of the two in the tick, m. The lower piece may be stopped by something below it. */
 static double Approach(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
     double falls = -kiriVec3_Dot(touch->normal, PlaceVelocity(&touch->upper));
     double rises = kiriVec3_Dot(touch->normal, touch->velocity);
     double speed = falls + kiriMax(rises, 0.0) + dt * kiriVec3_Length(world->gravity);
-    return speed > 0.0 ? dt * speed : 0.0;
+    return dt * kiriMax(speed, 0.0);
 }
 
 /* Adds a touch. A probe has one for each direction: if there are several surfaces behind each other, the nearest one. */
@@ -235,31 +205,51 @@ static bool AreSewn(const kiriPlace3* a, const kiriPlace3* b, double reach)
     return areSewn;
 }
 
+/* Completes a touch. Returns the gap that the tick may leave, m; HUGE_VAL: a seam joins the places. */
+static double CompleteTouch(const kiriWorld* world, kiriPairTouch* touch, double thickness, double dt)
+{
+    touch->velocity = PlaceVelocity(&touch->lower);
+    touch->touch = KIRI_NONE;
+    double above = touch->gap - Approach(world, touch, dt);
+    if (AreSewn(&touch->upper, &touch->lower, SEWN_REACH * thickness)) {
+        return HUGE_VAL;
+    }
+    if (above < (1.0 + MARGIN) * touch->distance) {
+        RankTouch(touch, touch->distance);
+    }
+    return above;
+}
+
+/* Adds touches of probes of the upper piece above the lower one, and of the lower one below the upper one. Inside of
+   the lower piece those of the upper one are enough, where they are as near to each other. */
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 {
     kiriPairs* pairs = &world->pairs;
+    kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
+    kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
     double distance = KeptDistance(&pairs->bodies.data[pair->bodies[0]], &pairs->bodies.data[pair->bodies[1]]);
     bool ok = true;
     pair->touches = 0;
     KIRI_FROM_TO_WHILE(ok, i, pair->nears.first, pair->nears.first + pair->nears.count) {
         const kiriNear* near = &pairs->nears.data[i];
-        kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
-        if (!(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch)) ||
-            AreSewn(&touch.upper, &touch.lower, SEWN_REACH * distance)) {
-            continue;
+        kiriPlace3 probe = VertexPlace(isUpper ? upper : lower, near->vertex);
+        kiriPlace3 place = TrianglePlace(isUpper ? lower : upper, near->triangle, near->share);
+        bool isNeeded = isUpper || IsProbeNeeded(lower, upper, near->vertex);
+        double along = pair->side;
+        if (!isUpper) {
+            along *= kiriVec3_Dot(kiriVertex_SkinNormal(lower, near->vertex), near->normal);
         }
-        touch.key = KeyOfPair(pair, near);
-        touch.distance = distance;
-        touch.isFold = false;
-        touch.velocity = PlaceVelocity(&touch.lower);
-        touch.touch = KIRI_NONE;
-        double above = touch.gap - Approach(world, &touch, dt);
-        if (above < (1.0 + MARGIN) * distance) {
-            RankTouch(&touch, distance);
-            ok = AddTouch(world, &touch);
+        double sign = along >= 0.0 ? 1.0 : -1.0;
+        kiriPairTouch touch = { .key = KeyOfTouch(pair->upper, pair->lower, isUpper, (uint64_t)near->vertex),
+                                .upper = isUpper ? probe : place, .lower = isUpper ? place : probe,
+                                .normal = kiriVec3_Scale(sign, near->normal),
+                                .gap = isUpper ? sign * near->height : -sign * near->height, .distance = distance };
+        if (isNeeded && fabs(along) > ALONG) {
+            double above = CompleteTouch(world, &touch, distance, dt);
+            ok = !(above < (1.0 + MARGIN) * distance) || AddTouch(world, &touch);
+            pair->touches |= above < (1.0 + CLOSE) * distance;
         }
-        pair->touches |= above < (1.0 + CLOSE) * distance;
     }
     return ok;
 }
@@ -462,8 +452,7 @@ static bool AreSeveral(const kiriWorld* world)
 static kiriBox Widened(const kiriBox* box, double by)
 {
     kiriVec3 all = kiriVec3_Make(by, by, by);
-    kiriBox wide = { kiriVec3_Sub(box->lower, all), kiriVec3_Add(box->upper, all) };
-    return wide;
+    return (kiriBox){ kiriVec3_Sub(box->lower, all), kiriVec3_Add(box->upper, all) };
 }
 
 /* Returns true if something awake may come near the sheet in the tick. Farther sheets that sleep do not become bodies.
@@ -512,8 +501,7 @@ static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiri
 
 static bool Holds(const kiriBox* box, kiriVec3 x)
 {
-    kiriBox point = { x, x };
-    return kiriBox_Meet(box, &point);
+    return kiriBox_Meet(box, &(kiriBox){ x, x });
 }
 
 #define STEEP 0.5           /* minimum ratio of the offset along the surface to the offset across it, beside a border */
@@ -570,8 +558,7 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
         return OnEdge(1, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     double sum = onA + onB + onC;
-    Place inside = { { onA / sum, onB / sum, onC / sum }, KIRI_NONE, KIRI_NONE };
-    return inside;
+    return (Place){ { onA / sum, onB / sum, onC / sum }, KIRI_NONE, KIRI_NONE };
 }
 
 /* Returns the distance of the place from the border, m: from border edges of its triangle, and from corners at which
@@ -648,19 +635,6 @@ static double LookAtTriangle(void* context, int32_t triangle)
     return looking->least;
 }
 
-/* Finds the place of the other body nearest to the probe, whose vertex and bodies are set. Returns false if there is
-   none within `reach`, or if it is on the border and the probe lies beside the other body. At equal distances the
-   lowest triangle counts. `distance`: distance that the two keep. The bounds of the other body must be up to date. */
-static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, double distance)
-{
-    Looking looking = { near, bodies, reach * reach, false };
-    const kiriSheetData* other = bodies[near->other].sheet;
-    kiriVec3 from = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    kiriGroup piece = { other->probes.vertexPiece.data, bodies[near->other].piece };
-    kiriBounds_Nearest(other->seen.bounds, &other->seen.surface, piece, from, looking.least, LookAtTriangle, &looking);
-    return looking.found && !IsBeside(near, bodies, distance, looking.least);
-}
-
 static uint64_t NameOf(kiriFrame a, kiriFrame b)
 {
     return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
@@ -677,22 +651,27 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
     return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
-/* Finds the near places of a body's probes on another body. A body that was the lower one in the last tick needs
-   some probes alone. Fails on out of memory. */
+/* Finds the places of another body that are nearest to probes of a body, within `reach`. Leaves out places on the
+   border if the probe lies beside the other body. At equal distances the lowest triangle counts. A body that
+   was the lower one in the last tick needs some probes alone. Bounds must be up to date. Fails on out of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
     kiriPairs* pairs = &world->pairs;
-    const kiriBody *a = &pairs->bodies.data[body], *b = &pairs->bodies.data[other];
+    const kiriBody *bodies = pairs->bodies.data, *a = &bodies[body], *b = &bodies[other];
     kiriIndexSpan probes = ProbesOf(a);
+    kiriGroup piece = { b->sheet->probes.vertexPiece.data, b->piece };
     kiriBox box = Widened(&b->box, reach);
     const kiriTouchingPair* old = FindOld(pairs, a->id, b->id);
     bool isLower = old != NULL && old->lower == a->id, ok = true;
     KIRI_TIMES_WHILE(ok, i, probes.count) {
-        kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
-        if (Holds(&box, kiriSurface_At(&a->sheet->seen.surface, near.vertex)) &&
-            (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex)) &&
-            FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
-            ok = kiriArray_Push(&world->memory, &pairs->nears, near);
+        kiriNear near = { .body = body, .other = other, .vertex = probes.data[i], .triangle = KIRI_NONE };
+        Looking looking = { &near, bodies, reach * reach, false };
+        kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
+        if (Holds(&box, x) && (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex))) {
+            kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, looking.least, LookAtTriangle,
+                               &looking);
+            ok = !looking.found || IsBeside(&near, bodies, KeptDistance(a, b), looking.least) ||
+                 kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }
     return ok;
@@ -778,10 +757,8 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
     bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));
     int32_t upper = isUpper ? a : b, lower = isUpper ? b : a;
     int32_t side = old != NULL ? old->side : SideOfPair(pairs, nears, lower, dt);
-    kiriTouchingPair pair = {
-        pairs->bodies.data[upper].id, pairs->bodies.data[lower].id, side, 0, { upper, lower }, nears
-    };
-    return pair;
+    return (kiriTouchingPair){ pairs->bodies.data[upper].id, pairs->bodies.data[lower].id, side, 0, { upper, lower },
+                               nears };
 }
 
 /* ---- Pairs ---- */
@@ -827,8 +804,7 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
     }
     kiriSurface_NeedNormals(&one->sheet->seen.surface);
     kiriSurface_NeedNormals(&other->sheet->seen.surface);
-    kiriTouchingPair pair = Decide(world, a, b, nears, dt);
-    return kiriArray_Push(&world->memory, &pairs->found, pair);
+    return kiriArray_Push(&world->memory, &pairs->found, Decide(world, a, b, nears, dt));
 }
 
 static bool IsFarther(const void* context, int32_t a, int32_t b)
@@ -919,7 +895,7 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
 typedef struct FoldSearch {
     kiriWorld* world;
     kiriSheetData* sheet;
-    kiriBody body;
+    const kiriBody* body;
     kiriVec3 ahead;   /* normal at the probe */
     kiriNear found[2]; /* of the probe: in front, and behind */
     double least[2];  /* m^2: of their distance; or of half of the edge */
@@ -931,7 +907,7 @@ static double LookAtLayer(void* context, int32_t triangle)
 {
     FoldSearch* search = context;
     kiriNear one = search->found[0];
-    double squared = Measure(&one, &search->body, triangle), across = one.height * one.height;
+    double squared = Measure(&one, search->body, triangle), across = one.height * one.height;
     int side = one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0 ? 0 : 1;
     bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
     if (squared < search->least[side] || isFirst) {
@@ -963,19 +939,16 @@ static bool FindLayers(FoldSearch* search, double dt)
     kiriWorld* world = search->world;
     kiriSheetData* sheet = search->sheet;
     const kiriProbes* probes = &sheet->probes;
-    kiriSpan span = kiriPieceRow_Of(&probes->list, search->body.piece);
-    kiriGroup group = { probes->vertexPiece.data, search->body.piece };
-    kiriVec3 mean = kiriVec3_Scale(1.0 / search->body.mass, search->body.momentum);
-    double stir = dt * kiriVec3_Length(world->gravity);
+    kiriSpan span = kiriPieceRow_Of(&probes->list, search->body->piece);
+    kiriGroup group = { probes->vertexPiece.data, search->body->piece };
+    kiriVec3 mean = kiriVec3_Scale(1.0 / search->body->mass, search->body->momentum);
+    double falling = dt * kiriVec3_Length(world->gravity), stir = kiriMax(falling, search->body->stir);
     bool ok = true;
-    KIRI_ASSERT(search->body.mass > 0.0 && probes->velocities.count == probes->list.items.count);
-    KIRI_EACH_IN(i, span) {
-        stir = kiriMax(kiriVec3_Distance(probes->velocities.data[i], mean), stir);
-    }
+    KIRI_ASSERT(search->body->mass > 0.0 && probes->velocities.count == probes->list.items.count);
     KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
         double speed = kiriVec3_Distance(probes->velocities.data[i], mean) + stir;
         double reach = 2.0 * sheet->settings.foldThickness + dt * speed;
-        kiriNear none = { 0, 0, probes->list.items.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0 };
+        kiriNear none = { .vertex = probes->list.items.data[i], .triangle = KIRI_NONE };
         search->found[0] = search->found[1] = none;
         search->least[0] = search->least[1] = reach * reach;
         search->ahead = kiriVertex_SkinNormal(sheet, none.vertex);
@@ -1034,16 +1007,6 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
     return sum;
 }
 
-static uint64_t KeyOfFold(const kiriSheetData* sheet, int32_t a, int32_t b, int32_t c)
-{
-    uint64_t hash = KIRI_HASH_START;
-    kiriHash_Word(&hash, sheet->frames.data[0].id);
-    kiriHash_Word(&hash, (uint64_t)a);
-    kiriHash_Word(&hash, (uint64_t)b);
-    kiriHash_Word(&hash, (uint64_t)c);
-    return UINT64_C(3) << 60 | hash >> 4;
-}
-
 /* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. */
 static double LookAtCrossing(void* context, int32_t triangle)
 {
@@ -1076,7 +1039,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
     sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
     near.vertex = touch.upper.share[1] < 0.5 ? search->a : search->b;
-    touch.key = KeyOfFold(sheet, search->a, search->b, triangle);
+    touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)search->a, (uint64_t)search->b, (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = FoldDistance(sheet, &near, 0.0);
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
@@ -1091,7 +1054,7 @@ static bool TouchTangles(FoldSearch* search)
     const kiriSheetData* sheet = search->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     const uint8_t* marks = sheet->probes.marks.data;
-    kiriGroup group = { sheet->probes.vertexPiece.data, search->body.piece };
+    kiriGroup group = { sheet->probes.vertexPiece.data, search->body->piece };
     KIRI_TIMES_WHILE(search->ok, h, 3 * sheet->mesh.triangles.count) {
         bool isOpen = kiriMesh_IsOpen(&sheet->mesh, h);
         search->edge = h;
@@ -1122,34 +1085,19 @@ static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
         KIRI_ASSERT(near->kept > 0.0 && near->triangle != KIRI_NONE);
         double side = near->height >= 0.0 ? 1.0 : -1.0;
         bool isAhead = near->height * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) < 0.0;
-        kiriPairTouch touch = { .upper = VertexPlace(sheet, near->vertex), .isFold = true, .touch = KIRI_NONE };
+        kiriPairTouch touch = { .upper = VertexPlace(sheet, near->vertex), .isFold = true };
         touch.lower = TrianglePlace(sheet, near->triangle, near->share);
-        touch.velocity = PlaceVelocity(&touch.lower);
-        touch.key = KeyOfFold(sheet, near->vertex, near->vertex, isAhead);
+        touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)near->vertex, (uint64_t)near->vertex, isAhead);
         touch.normal = kiriVec3_Scale(side, near->normal);
         touch.gap = side * near->height;
         touch.distance = near->kept;
         bool isTangled = (sheet->probes.marks.data[near->vertex] & KIRI_FOLD_TANGLED) != 0;
-        bool isSewn = AreSewn(&touch.upper, &touch.lower, SEWN_REACH * sheet->settings.foldThickness);
-        if (!isTangled && !isSewn && touch.gap - Approach(world, &touch, dt) < (1.0 + MARGIN) * touch.distance) {
-            RankTouch(&touch, touch.distance);
+        double most = (1.0 + MARGIN) * touch.distance;
+        if (!isTangled && CompleteTouch(world, &touch, sheet->settings.foldThickness, dt) < most) {
             ok = kiriArray_Push(&world->memory, &world->pairs.touches, touch);
         }
     }
     return ok;
-}
-
-static bool TouchFold(kiriWorld* world, kiriSheetData* sheet, int32_t piece, double dt)
-{
-    FoldSearch search = { .world = world, .sheet = sheet, .body = { .sheet = sheet, .piece = piece }, .ok = true };
-    int32_t first = world->pairs.nears.count;
-    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
-    KIRI_EACH(const int32_t, at, frames) {
-        const kiriFrameData* frame = &sheet->frames.data[*at];
-        search.body.mass += frame->mass;
-        search.body.momentum = kiriVec3_AddScaled(search.body.momentum, frame->mass, frame->velocity);
-    }
-    return FindLayers(&search, dt) && TouchTangles(&search) && TouchLayers(&search, first, dt);
 }
 
 /* Prepares a sheet with a piece that folds. If no piece folds, probes become stale. */
@@ -1177,9 +1125,14 @@ static bool TouchFolds(kiriWorld* world, double dt)
     KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (!sheet->rest.asleep) {
-            ok = BeginFolds(sheet);
+            int32_t body = world->pairs.bodies.count;
+            ok = BeginFolds(sheet) && (!sheet->probes.folds || ListBodiesOf(world, sheet));
             KIRI_TIMES_WHILE(ok && sheet->probes.folds, p, sheet->layout.pieces.count) {
-                ok = !kiriPiece_Folds(sheet, p) || TouchFold(world, sheet, p, dt);
+                const kiriBody* at = &world->pairs.bodies.data[body + p];
+                FoldSearch search = { .world = world, .sheet = sheet, .body = at, .ok = true };
+                int32_t first = world->pairs.nears.count;
+                ok = !kiriPiece_Folds(sheet, p) ||
+                     (FindLayers(&search, dt) && TouchTangles(&search) && TouchLayers(&search, first, dt));
             }
         }
     }
