@@ -148,8 +148,14 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     bool gains = !isCrumb && !isLate && !kiriContact_IsMutual(step);
     double out = gains ? kiriMax(depth - step->lowered, 0.0) : 0.0;
     out = kiriMax(kiriMin(out, row->reach), share * out);
-    step->lift = kiriVec3_Dot(row->normal, step->carried) + out;
+    step->out = out;
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
+}
+
+/* Returns true if a soft contact is with an obstacle at rest, which throws nothing. */
+static bool OnlyLifts(const kiriContactStep* step)
+{
+    return IsSoft(step->row) && !(kiriVec3_Dot(step->carried, step->carried) > 0.0);
 }
 
 /* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy, or infinity if it
@@ -169,7 +175,9 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
     double obstacleSpeed = 0.0, gravity = kiriVec3_Length(kiriSystem_Gravity(system));
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         if (!step->isHeld) {
-            double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
+            double out = OnlyLifts(step) && solver->islandCount > 1 ? 0.0 : step->out;
+            double lift = kiriVec3_Dot(step->row->normal, step->carried) + out;
+            double fast = (kiriVec3_Length(step->carried) + fabs(lift)) / solver->dt;
             double given = MeansOf(step, solver->dt);
             obstacleSpeed = kiriMax(fast, obstacleSpeed);
             touch->means = kiriMax(given, touch->means);
@@ -1095,13 +1103,14 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
     solver->touch.keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;
 }
 
-double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step)
+double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting)
 {
-    kiriVec3 force = kiriContact_Force(solver, step), normal = step->row->normal;
-    if (solver->touch.isHeldUp) {
-        return kiriVec3_Dot(force, step->carried); /* it is moved out of obstacles, which throws nothing */
+    kiriVec3 force = kiriContact_Force(solver, step);
+    double work = kiriVec3_Dot(force, step->carried);
+    if (!solver->touch.isHeldUp) { /* else it is moved out of obstacles, which throws nothing */
+        *(OnlyLifts(step) ? lifting : &work) += kiriVec3_Dot(force, step->row->normal) * step->out;
     }
-    return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_Across(step->carried, normal));
+    return work;
 }
 
 /* Gives the yield row `times` the impulse of the contact in the step. */

@@ -140,6 +140,8 @@ double kiriSolver_MostTaken(const kiriSolver* solver)
     return solver->energy.kinetic + (solver->support == KIRI_SUPPORT_HELD ? solver->energy.moving : 0.0);
 }
 
+#define OUT_SPEED 0.2 /* m/s: at which obstacles throw out a body; several that touch they lift, but do not throw */
+
 /* Finds the increase of kinetic and potential energy in the step beyond the work of gravity and of the host's forces.
    Increases within the rounding error do not count. Held frames count as if they had moved before the step. */
 static void SumGains(kiriSolver* solver, const kiriSystem* system)
@@ -148,6 +150,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
     const kiriSearch* search = &solver->search;
     kiriEnergyStep* energy = &solver->energy;
     bool hasWind = kiriSystem_HasWind(system);
+    double weight = 0.0; /* J: that the step raised */
     energy->kinetic = 0.0;
     energy->turning = 0.5 * kiriVec3_Dot(solver->momentum.spin, solver->momentum.angular);
     energy->moving = 0.5 * solver->momentum.mass * kiriVec3_Dot(mean, mean);
@@ -160,6 +163,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
             double before = kiriFrame_KineticEnergy(start, material);
             double after = kiriFrame_KineticEnergy(end, material);
+            weight -= start->mass * kiriVec3_Dot(gravity, way);
             kiriVec3 lag = end->history.turnLag.u; /* a frame moves by h v+ + p+ in the step, and turns likewise */
             lag = kiriMechanics_IsAffine(&system->mechanics) ? kiriMat3_Spin(&end->A, &end->history.turnLag) : lag;
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
@@ -171,9 +175,12 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             energy->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
         }
     }
+    double lifting = 0.0; /* J */
     KIRI_EACH_INDEX(k, solver->contacts) {
-        energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k]);
+        energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k], &lifting);
     }
+    double thrown = solver->islandCount > 1 ? 0.0 : 0.5 * OUT_SPEED * OUT_SPEED * solver->momentum.mass;
+    energy->gain -= kiriClamp(lifting, 0.0, kiriMax(weight, 0.0) + thrown);
 }
 
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)

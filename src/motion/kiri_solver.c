@@ -1191,17 +1191,49 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
     }
 }
 
+/* Returns the elastic energy of an element, J. */
+static double ElementEnergy(const kiriSystem* system, int32_t k)
+{
+    double strain[KIRI_MOST_STRAINS], stiffness[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS], sum = 0.0;
+    kiriElement_Measure(system, k, NULL, strain, NULL);
+    kiriElement_Stiffness(system, k, stiffness);
+    kiriElement_TakeOffsets(system, k, strain, pulling);
+    KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
+        sum += 0.5 * stiffness[e] * pulling[e] * pulling[e];
+    }
+    return sum;
+}
+
 double kiriSolver_ElasticEnergy(const kiriSystem* system)
 {
     double sum = 0.0;
     KIRI_TIMES(k, kiriElement_Count(system)) {
-        double strain[KIRI_MOST_STRAINS], stiffness[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
-        kiriElement_Measure(system, k, NULL, strain, NULL);
-        kiriElement_Stiffness(system, k, stiffness);
-        kiriElement_TakeOffsets(system, k, strain, pulling);
-        KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
-            sum += 0.5 * stiffness[e] * pulling[e] * pulling[e];
-        }
+        sum += ElementEnergy(system, k);
     }
     return sum;
+}
+
+#define FADE_GAIN 0.05 /* most that a fade adds to a link: of its energy, or of its weight times its length */
+#define FADE_TRIALS 4  /* the last one fades an eighth as much; then the fade waits */
+
+void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets, const kiriPlastic* plastics,
+                            const kiriIndices* links, double keep, bool mayTouch)
+{
+    const kiriStrainOffset none = { { 0.0 } };
+    double g = mayTouch ? kiriVec3_Length(kiriSystem_Gravity(system)) : 0.0;
+    KIRI_EACH(const int32_t, at, *links) {
+        int32_t k = *at;
+        const kiriPlastic* plastic = plastics != NULL ? &plastics[k] : NULL;
+        kiriStrainOffset was = offsets[k];
+        bool isLimited = g > 0.0 && memcmp(&was, &none, sizeof(none)) != 0;
+        double before = isLimited ? ElementEnergy(system, k) : 0.0, part = keep;
+        double weight = system->frames[system->links[k].i].mass * g;
+        double most = before + FADE_GAIN * kiriMax(before, weight * system->links[k].length);
+        KIRI_ASSERT(k >= 0 && k < system->linkCount);
+        KIRI_TIMES_WHILE(trial == 0 || (isLimited && ElementEnergy(system, k) > most), trial, FADE_TRIALS + 1) {
+            offsets[k] = was;
+            kiriStrainOffset_Fade(offsets[k].strain, plastic, KIRI_STRAINS, part);
+            part = trial + 1 < FADE_TRIALS ? 0.5 * (1.0 + part) : 1.0;
+        }
+    }
 }

@@ -257,6 +257,12 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t bo
 /* Returns the elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
+/* Multiplies the offsets of these links by `keep`, but for their plastic parts. mayTouch: the sheet is near contacts.
+   Then, under gravity, a fade that would add much energy to a link is shorter, or waits until the link has less strain. offsets: of
+   the system. plastics: one a link, or null. */
+void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets, const kiriPlastic* plastics,
+                            const kiriIndices* links, double keep, bool mayTouch);
+
 /* Elements join frames elastically. Their order is: links, except in the model of integration points; corners of these
    links, unless Poisson's ratio is zero; area elements. Each element has several strains, each with a stiffness; its
    energy is the sum of 1/2 stiffness strain^2. */
@@ -396,7 +402,7 @@ typedef struct kiriContactStep {
     kiriVec3 carried; /* m: displacement of the obstacle in the step */
     double plane;     /* m: offset at the end of the step, limited by pushSpeed */
     double lowered;   /* m: distance of that plane below the obstacle's surface */
-    double lift;      /* m: upper limit of the distance by which the plane lifts the point */
+    double out;       /* m: upper limit of the distance by which the plane lifts the point out of the obstacle */
     kiriVec3 held;    /* N: friction of the last step, which keeps sticking points from creeping */
     bool isActive, sticks;
     double limit;           /* N: friction limit while slipping */
@@ -688,9 +694,12 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system);
 /* Fits the forces to the final poses of the body. Call it before kiriContact_Force. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Return the force on the sheet, within the friction cone, N; and the upper limit of the obstacle's work by it, J. */
+/* Returns the force on the sheet, within the friction cone, N. */
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step);
-double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step);
+
+/* Returns the upper limit of the obstacle's work, J. Adds the work of a soft contact that pushes a point out to
+   `lifting`. */
+double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting);
 
 /* Writes forces and impulses of the step to the contact rows, and impulses to the yield rows. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);

@@ -33,8 +33,10 @@
 #define TURNED (-0.5)
 
 #define HALF_TURN 3.14159265358979
-/* Least cosine of half a turn about d by which an offset of plane bending is divided. */
-#define LEAST_COSINE 0.1
+/* Least cosine of half a turn about d, faded in folds, by which an offset of plane bending is divided. */
+#define LEAST_COSINE 0.01
+/* Limit of that offset: twice the tangent of half the turn about d that it hides. */
+#define MOST_TURNED 10.0
 /* Least difference of the squares of half a turn and of an angle. */
 #define LEAST_ROOM 1e-6
 
@@ -732,7 +734,8 @@ void kiriStrainOffset_Keep(const double* strain, const double* turned, const dou
     KIRI_TIMES(e, KIRI_STRAINS) {
         offset[e] = strain[e] - was[e] + (e == KIRI_PLANE_BENDING ? 0.0 : older[e]);
     }
-    offset[KIRI_PLANE_BENDING] = kiriClamp(offset[KIRI_PLANE_BENDING] / kiriMax(cosine, LEAST_COSINE), -1.0, 1.0);
+    offset[KIRI_PLANE_BENDING] /= kiriMax(cosine, LEAST_COSINE);
+    offset[KIRI_PLANE_BENDING] = kiriClamp(offset[KIRI_PLANE_BENDING], -MOST_TURNED, MOST_TURNED);
 }
 
 const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames,
@@ -756,11 +759,18 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
 {
     kiriStrainOffset offset;
     double strain[KIRI_STRAINS], turned[KIRI_STRAINS], was[KIRI_STRAINS] = { 0 };
+    double before[KIRI_STRAINS], after[KIRI_STRAINS];
     kiriStrain_MeasureLink(link, material, &frames[link->i], &frames[link->j], 0.0, strain);
     kiriStrain_MeasureLink(link, material, &frames[link->i], &frames[link->j], 1.0, turned);
     if (old != NULL) {
         kiriStrain_MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
                     kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->j), older->strain[KIRI_PLANE_BENDING], was);
+        kiriStrain_Stiffness(old, material, before);
+        kiriStrain_Stiffness(link, material, after);
+        KIRI_TIMES(e, KIRI_FOLD) { /* a link that becomes stiffer keeps its force: else it would gain energy */
+            double hidden = e == KIRI_PLANE_BENDING ? 0.0 : older->strain[e];
+            was[e] = after[e] > before[e] ? hidden + before[e] / after[e] * (was[e] - hidden) : was[e];
+        }
     }
     kiriStrainOffset_Keep(strain, turned, was, older->strain, offset.strain);
     return offset;
@@ -829,18 +839,6 @@ void kiriStrainOffset_Fade(double* offset, const kiriPlastic* plastic, int count
         offset[KIRI_BENDING] += plastic->part.bending;
         offset[KIRI_TWIST] += plastic->part.twist;
         offset[KIRI_FOLD] += plastic->part.fold;
-    }
-}
-
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,
-                               double dt, double time)
-{
-    double keep = time / (time + dt);
-    KIRI_TIMES_WHILE(strainOffsets->strainOffsets.count > 0, n, links->count) {
-        int32_t k = links->data[n];
-        KIRI_ASSERT(k < strainOffsets->strainOffsets.count);
-        kiriStrainOffset_Fade(strainOffsets->strainOffsets.data[k].strain,
-                              plastics->links.count > 0 ? &plastics->links.data[k] : NULL, KIRI_STRAINS, keep);
     }
 }
 

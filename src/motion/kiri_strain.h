@@ -212,9 +212,7 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plas
 void kiriStrainOffset_Keep(const double* strain, const double* turned, const double* was, const double* older,
                            double* offset);
 
-/* Fades the offsets of these links by 1 / e per `time` (s), but for their plastic parts. */
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,
-                               double dt, double time);
+/* Multiplies an offset by `keep`, but for its plastic part, if it has one. */
 void kiriStrainOffset_Fade(double* offset, const kiriPlastic* plastic, int count, double keep);
 
 /* The strains of a link that flow, and their places. */

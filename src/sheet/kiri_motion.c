@@ -304,9 +304,14 @@ int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, cons
         return next;
     }
     /* Strains fade first, so that the substeps relax stiff links. */
-    double time = sheet->seen.fades.time;
-    kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &sheet->solver->moved.links, dt,
-                              kiriTears_AreGrowing(sheet) ? kiriMin(time, KIRI_TEAR_FADE) : time);
+    double time = sheet->seen.fades.time, fade = kiriTears_AreGrowing(sheet) ? kiriMin(time, KIRI_TEAR_FADE) : time;
+    if (sheet->strainOffsets.strainOffsets.count > 0) {
+        kiriSystem fading = MakeSystem(sheet, gravity);
+        bool mayTouch = systems == NULL || sheet->touches.found.count > 0;
+        const kiriPlastic* plastics = sheet->plastics.links.count > 0 ? sheet->plastics.links.data : NULL;
+        kiriSolver_FadeOffsets(&fading, sheet->strainOffsets.strainOffsets.data, plastics, &sheet->solver->moved.links,
+                               fade / (fade + dt), mayTouch);
+    }
     kiriPins_FadeOffsets(sheet, dt, time);
     kiriFollow_Begin(sheet, dt);
     kiriPins_WriteRows(sheet, 0.0, 1.0);

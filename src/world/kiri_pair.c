@@ -221,7 +221,7 @@ static double CompleteTouch(const kiriWorld* world, kiriPairTouch* touch, double
 }
 
 /* Adds touches of probes of the upper piece above the lower one, and of the lower one below the upper one. Inside of
-   the lower piece those of the upper one are enough, where they are as near to each other. */
+   the lower piece, probes of the upper one are enough where they are as near to each other. */
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 {
     kiriPairs* pairs = &world->pairs;
