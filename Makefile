@@ -160,7 +160,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d jolt play view python bindings described builds exported renderers lib single example bench accuracy trade contact extremes gallery guide deps
-.PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
+.PHONY: unrun test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -392,7 +392,7 @@ run-sweep_saves: $(BUILD)/tests/sweep_saves
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
 all-tests: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
-    $(RUN) $(BOX2D) $(PLAY) check headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
+    $(RUN) $(BOX2D) $(PLAY) check unrun headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
 	@echo "all tests passed ($(config))"
 
 # The input of fuzzers and the recordings have all calls; Python loads no sanitized library.
@@ -440,6 +440,14 @@ floors:
 	    for up in $$upper; do ! grep -n "#include \"\.\./$$up/" src/$$floor/* || exit 1; done; \
 	done
 	@echo "src: includes go down the floors"
+
+# Benchmarks and tables, which no test runs, still compile.
+UNRUN := $(wildcard $(addprefix tests/,bench*.c accuracy*.c contact*.c trade*.c sweep*.c))
+
+unrun:
+	@for source in $(UNRUN); do \
+	    $(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -Wno-unused-parameter -MF /dev/null -fsyntax-only $$source || exit 1; done
+	@echo "benchmarks: all compile"
 
 # What the sources say of themselves, without a build.
 check: ratchet floors fields quotes
