@@ -352,7 +352,7 @@ TEST(TrouserPullsWithItsForce)
     for (int e = 0; e < 3; ++e) {
         for (int k = 0; k < 3; ++k) {
             START_HOST(host);
-            int32_t ticks = e == 2 ? 60 : 200;
+            int32_t ticks = e == 2 ? 100 : 200;
             Trouser t;
             double tip[2], first = 0.0, sum = 0.0, most = 0.0;
             int32_t count = 0;
