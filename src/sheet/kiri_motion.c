@@ -266,7 +266,7 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
         return false;
     }
     ListAwakePieces(sheet);
-    int32_t iterations = kiriMotion_Iterations(sheet), solved = 0;
+    int32_t iterations = sheet->settings.iterations, solved = 0;
     int64_t items = ItemsOfMoved(sheet), most = kiriMin(systems->left / (2 * items), KIRI_MOST_ROUNDS);
     if (most < iterations) {
         return true; /* the tick needs them more */
