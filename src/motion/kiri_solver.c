@@ -1153,7 +1153,8 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
     } else if (kiriMechanics_IsAffine(&system->mechanics)) {
         LinkEnds ends = LinkEndsOf(system, link, poses);
         const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-        kiriAffine_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
+        kiriAffine_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses, strain,
+                           (kiriFrameRow(*)[2])rows);
     } else {
         MeasureRigidRows(system, link, poses, strain, rows);
     }

@@ -717,8 +717,8 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
         const kiriLink* link = kiriElement_Link(system, k);
         const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
         const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
-        kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), frames, ends, kiriSystem_Turned(system, link), strain,
-                           (kiriStrainRow*)J); /* rows are J as it is */
+        kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), frames, ends, kiriSystem_Turned(system, link),
+                           strain, (kiriStrainRow*)J); /* rows are J as it is */
     } else {
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
         KIRI_TIMES(n, kiriElement_StrainCount(system, k) * count) {
@@ -739,7 +739,8 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
 static void TurnSprings(const kiriYield* yield, const double* loss, const double* strain, const double* start,
                         double* springs, double* pulls)
 {
-    kiriBentStrain now = kiriBentStrain_Of(strain), then = kiriBentStrain_Of(start), stiff = kiriBentStrain_Of(springs), pull = kiriBentStrain_Of(pulls);
+    kiriBentStrain now = kiriBentStrain_Of(strain), then = kiriBentStrain_Of(start), stiff = kiriBentStrain_Of(springs),
+                   pull = kiriBentStrain_Of(pulls);
     kiriBentStrain change = { now.bending - then.bending, now.twist - then.twist, now.fold - then.fold };
     kiriYield_TurnSprings(yield, loss[KIRI_BENDING], &change, &stiff, &pull);
     kiriBentStrain_Write(&stiff, springs);
@@ -834,7 +835,8 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow*
     }
     if (flows) {
         double* const traced[2] = { NULL, NULL };
-        kiriYield_TurnRows(&row->yield, solver->size, &J[solver->size * KIRI_BENDING], &J[solver->size * KIRI_TWIST], traced);
+        kiriYield_TurnRows(&row->yield, solver->size, &J[solver->size * KIRI_BENDING], &J[solver->size * KIRI_TWIST],
+                           traced);
         TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) {

@@ -497,11 +497,11 @@ static bool AreCuts(const kiriSheetData* sheet)
         KIRI_ASSERT(cut->sheet == sheet && cut->index == c);
         const kiriBladeTip* blade = &cut->tip.blade;
         double along = kiriVec2_Dot(cut->tears, cut->tears);
-        areFine = (along == 0.0 || fabs(along - 1.0) < 1e-6) && IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
-                  IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0 &&
-                  blade->fold <= sheet->mesh.folds.count &&
-                  (blade->vertex == KIRI_NONE ||
-                   kiriLattice_IsSame(kiriMesh_At(&sheet->mesh, blade->vertex), blade->at));
+        areFine =
+            (along == 0.0 || fabs(along - 1.0) < 1e-6) && IsOnLattice(blade->at) && IsOnLattice(blade->from) &&
+            IsOnLattice(blade->to) && IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0 &&
+            blade->fold <= sheet->mesh.folds.count &&
+            (blade->vertex == KIRI_NONE || kiriLattice_IsSame(kiriMesh_At(&sheet->mesh, blade->vertex), blade->at));
     }
     KIRI_EACH_WHILE(areFine, const kiriQueuedPoint, point, sheet->queue) {
         areFine = !point->ends || point->cut->ended;

@@ -368,8 +368,8 @@ static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
 #define CHECK_POOL(pool, kind) kiriPool_IsSound(&made->pool, KIRI_KIND_##kind) &&
     bool isFine = kiriArchive_HasFailed(archive) ||
-                  (KIRI_POOLS(CHECK_POOL) made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
-                   made->newEvents <= made->events.count);
+                  (KIRI_POOLS(CHECK_POOL) made->active.capacity >= made->sheets.count &&
+                   made->atWork.capacity >= made->sheets.count && made->newEvents <= made->events.count);
     kiriArchive_Expect(archive, isFine);
     KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->sheets) {
         kiriArchive_Expect(archive, IsSheet(made, made->sheets.data[i]));
