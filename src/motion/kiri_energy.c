@@ -140,7 +140,7 @@ double kiriSolver_MostTaken(const kiriSolver* solver)
     return solver->energy.kinetic + (solver->support == KIRI_SUPPORT_HELD ? solver->energy.moving : 0.0);
 }
 
-#define OUT_SPEED 0.2 /* m/s: at which obstacles throw out a body; several that touch they lift, but do not throw */
+#define OUT_SPEED 0.2 /* m/s: at which obstacles throw out bodies */
 
 /* Finds the increase of kinetic and potential energy in the step beyond the work of gravity and of the host's forces.
    Increases within the rounding error do not count. Held frames count as if they had moved before the step. */
@@ -179,7 +179,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH_INDEX(k, solver->contacts) {
         energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k], &lifting);
     }
-    double thrown = solver->islandCount > 1 ? 0.0 : 0.5 * OUT_SPEED * OUT_SPEED * solver->momentum.mass;
+    double thrown = 0.5 * OUT_SPEED * OUT_SPEED * solver->momentum.mass;
     energy->gain -= kiriClamp(lifting, 0.0, kiriMax(weight, 0.0) + thrown);
 }
 
