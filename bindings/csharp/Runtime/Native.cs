@@ -1435,7 +1435,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1900;
+        public const int Version = 2000;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
