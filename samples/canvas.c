@@ -222,7 +222,7 @@ static void DrawBackground(const Canvas* canvas)
 
 /* ---- Ground and shadows ----------------------------------------------------------------------------------------- */
 
-/* The square of the ground that shadows are kept of: where the light throws what is around the target. Returns half its side. */
+/* Finds the square of the ground that holds the shadows of things around the target. Returns half of its side. */
 static float GetShadowSquare(const Canvas* canvas, int axis, float middle[3])
 {
     const float* light = axis == 2 ? toLight : toLamp;

@@ -1,5 +1,5 @@
-/* Draws the pictures of all samples and games, without a window (offscreen.h). A program adds what there is to see, in any
-   order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until then. */
+/* Draws the pictures of all samples and games, without a window (offscreen.h). A program adds sheets, bodies and lines, in
+   any order; then all is drawn at once, with shadows. Arrays that were added stay unchanged until then. */
 #ifndef CANVAS_H
 #define CANVAS_H
 
@@ -75,7 +75,7 @@ struct OverlayText;
 typedef void CanvasTextDrawer(const struct OverlayText* text, float scale);
 
 /* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or where no
-   OpenGL can do this size. One canvas at a time. Without a drawer there are no texts. */
+   OpenGL can do this size. One canvas at a time. Null for drawText: texts are left out. */
 Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, CanvasTextDrawer* drawText);
 void Canvas_Destroy(Canvas* canvas);
 
@@ -92,10 +92,10 @@ void Canvas_AddBody(Canvas* canvas, const CanvasBody* body);
 /* In the world; width in units of the overlay. */
 void Canvas_AddLine(Canvas* canvas, const float from[3], const float to[3], float width, Color color);
 
-/* Lines and points over all else in the world, or hidden by what is before them. */
+/* Draws lines and points over all sheets and bodies; isHidden: these hide them. */
 void Canvas_SetMarks(Canvas* canvas, const Lines* marks, bool isHidden);
 
-/* Over all else, in units of the overlay; y grows downwards. A later one covers an earlier one. */
+/* Shapes over the world, in units of the overlay; y grows downwards. A later shape covers an earlier one. */
 void Canvas_AddRectangle(Canvas* canvas, float left, float top, float width, float height, Color color);
 void Canvas_AddStroke(Canvas* canvas, const float* points, int32_t count, float width, Color color);
 void Canvas_AddDisc(Canvas* canvas, float x, float y, float radius, Color color);

@@ -32,7 +32,7 @@ void Overlay_AddDisc(Overlay* overlay, float x, float y, float radius, Color col
 void Overlay_AddStroke(Overlay* overlay, const float from[2], const float to[2], float width, Color color);
 void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align, Color color, const char* text);
 
-/* With a font of the system, for Canvas_Create (games/canvas_text.c). */
+/* Draws a text in a font of the system, for Canvas_Create (games/canvas_text.c). */
 void OverlayText_Draw(const OverlayText* text, float scale);
 
 /* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */

@@ -340,7 +340,7 @@ static inline void World_StopGravity(kiriWorld* world)
     OK(kiriWorld_SetGravity(world, (const float[]){ 0.0f, 0.0f, 0.0f }));
 }
 
-/* Makes so many ticks without a check of the world. Each must return KIRI_OK. */
+/* Makes `count` ticks without a check of the world. Each must return KIRI_OK. */
 static inline void World_Ticks(kiriWorld* world, int32_t count, float dt, int32_t substeps)
 {
     for (int32_t i = 0; i < count; ++i) {

@@ -443,7 +443,7 @@ static bool Takes(const EveryCall* call, const Slot* slot)
     return at != NULL;
 }
 
-/* Makes the call with `value` in the slot, which must be refused: what it would have made has the id 0. */
+/* Makes the call with `value` in the slot, which must be refused: the id of a new thing is 0. */
 static void Spoil(Stand* s, const EveryCall* call, const Slot* slot, const void* value, size_t bytes,
                   kiriResult expected)
 {

@@ -33,7 +33,7 @@ static void LockedLog(void* user, const char* line)
     pthread_mutex_unlock(&lock);
 }
 
-/* With a limit work waits. */
+/* isWaiting: a limit makes work wait. */
 static void Start(Stand* s, bool isWaiting)
 {
     static const float line[4] = { -0.1f, 0.7f, 1.1f, 0.6f };

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Ticks a second; and the picture that places of events refer to: that of the overlay. */
+/* Ticks a second; and the size of the overlay, in which events have their places. */
 enum { GAME_RATE = 60, GAME_WIDTH = CANVAS_WIDTH, GAME_HEIGHT = CANVAS_HEIGHT };
 
 #define GAME_DT (1.0f / (float)GAME_RATE)

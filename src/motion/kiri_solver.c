@@ -1224,7 +1224,6 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
     double g = mayTouch ? kiriVec3_Length(kiriSystem_Gravity(system)) : 0.0;
     KIRI_EACH(const int32_t, at, *links) {
         int32_t k = *at;
-        const kiriPlastic* plastic = plastics != NULL ? &plastics[k] : NULL;
         kiriStrainOffset was = offsets[k];
         bool isLimited = g > 0.0 && memcmp(&was, &none, sizeof(none)) != 0;
         double before = isLimited ? ElementEnergy(system, k) : 0.0, part = keep;
@@ -1233,7 +1232,7 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
         KIRI_ASSERT(k >= 0 && k < system->linkCount);
         KIRI_TIMES_WHILE(trial == 0 || (isLimited && ElementEnergy(system, k) > most), trial, FADE_TRIALS + 1) {
             offsets[k] = was;
-            kiriStrainOffset_Fade(offsets[k].strain, plastic, KIRI_STRAINS, part);
+            kiriStrainOffset_Fade(offsets[k].strain, plastics != NULL ? &plastics[k] : NULL, KIRI_STRAINS, part);
             part = trial + 1 < FADE_TRIALS ? 0.5 * (1.0 + part) : 1.0;
         }
     }

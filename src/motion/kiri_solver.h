@@ -257,9 +257,9 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t bo
 /* Returns the elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
-/* Multiplies the offsets of these links by `keep`, but for their plastic parts. mayTouch: the sheet is near contacts.
-   Then, under gravity, a fade that would add much energy to a link is shorter, or waits until the link has less strain. offsets: of
-   the system. plastics: one a link, or null. */
+/* Multiplies the offsets of these links by `keep`, but for their plastic parts (plastics: one a link, or null).
+   mayTouch: the sheet is near contacts. Then, under gravity, a fade that would add much energy to a link is shorter, or
+   waits until the link has less strain. */
 void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets, const kiriPlastic* plastics,
                             const kiriIndices* links, double keep, bool mayTouch);
 

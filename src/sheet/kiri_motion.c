@@ -250,8 +250,7 @@ static bool IsRead(const kiriSheetData* sheet)
 
 int32_t kiriMotion_Iterations(const kiriSheetData* sheet)
 {
-    int32_t given = sheet->settings.iterations;
-    return kiriTears_AreGrowing(sheet) ? kiriMax(given, KIRI_TEAR_ITERATIONS) : given;
+    return kiriMax(sheet->settings.iterations, kiriTears_AreGrowing(sheet) ? KIRI_TEAR_ITERATIONS : 0);
 }
 
 bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQuota* systems)

@@ -26,9 +26,8 @@ bool kiriPins_Stage(kiriSheetData* sheet);
 /* Writes sheet->linkParts. Call when links or clamps changed. Capacity is reserved. */
 void kiriPins_WriteLinkParts(kiriSheetData* sheet);
 
-/* After a commit: copies the history of reactions to frames that were held before, and if links keep their strains
-   (kiri_strain.h) those of clamps. On a frame that was not held before the strain starts at zero. `old` are the
-   previous shares. */
+/* After a commit: copies the history of reactions to frames that were held before. keepsStrains: and the strains of
+   clamps; they start at zero on other frames. `old`: the previous shares. */
 void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStrains);
 
 /* Fades the offsets of clamps to 1/e within `time` (s). */

@@ -50,8 +50,7 @@ bool kiriTouches_Reserve(kiriSheetData* sheet);
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
 /* Makes the contact of a touch with a row soft. `distance`: that they keep, m. If the place on the other sheet moves in
-   this tick, and both sheets have the same model, makes the contact mutual and returns true. Otherwise its plane stays
-   fixed. */
+   this tick, and both have the same model, makes the contact mutual and returns true. Else its plane stays fixed. */
 bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double distance, kiriSheetData* other,
                          const int32_t vertex[3], const double share[3]);
 
