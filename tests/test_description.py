@@ -58,7 +58,7 @@ class TestLayout(unittest.TestCase):
 
 
 # By their values, or by the struct before them.
-SAID_ELSEWHERE = ("kiriResultCode", "kiriQualityPreset", "kiriBudgetLimit", "kiriNoteLimit")
+SAID_ELSEWHERE = ("kiriResultCode", "kiriQualityPreset", "kiriSetupPreset", "kiriBudgetLimit", "kiriNoteLimit")
 
 
 class TestFunctions(unittest.TestCase):

@@ -81,6 +81,7 @@ func test_defaults():
 	check(kiri.default_debug_draw().size > 0.0, "debug draw")
 	check(kiri.get_material(kiri.MATERIAL_PAPER).youngs_modulus > 1e8, "paper")
 	check(kiri.get_quality(kiri.QUALITY_FAST).substeps >= 1, "quality")
+	check(kiri.get_setup(kiri.SETUP_PAPER, 0.5, 0.4).frame_count > 1, "setup")
 	var made = kiri.fill_rectangle(1.0, 0.5, 4, 2)
 	equal(made.rest_positions.size(), 15)
 	equal(made.indices.size(), 48)
