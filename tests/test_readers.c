@@ -115,7 +115,7 @@ TEST(NothingChanges)
 enum { ROUNDS = 60 };
 
 typedef struct Thread {
-    Stand* stand;
+    Stand stand; /* a copy, for its results */
     int32_t first;
     uint64_t looks; /* sum over all rounds */
     int32_t failures;
@@ -125,18 +125,18 @@ typedef struct Thread {
 static void* ReadAll(void* argument)
 {
     Thread* thread = argument;
-    kiriWorld* world = thread->stand->tape.host.world;
-    Stand own = *thread->stand; /* for the results */
-    own.given.id = &own.ids[8];
-    own.given.ids = own.ids;
-    own.given.count = &own.count;
-    own.given.out = own.given.spare = own.out;
-    own.given.more = own.out + 32;
+    Stand* own = &thread->stand;
+    kiriWorld* world = own->tape.host.world;
+    own->given.id = &own->ids[8];
+    own->given.ids = own->ids;
+    own->given.count = &own->count;
+    own->given.out = own->given.spare = own->out;
+    own->given.more = own->out + 32;
     for (int32_t round = 0; round < ROUNDS; ++round) {
         for (int32_t i = 0; i < everyCallCount; ++i) {
             const EveryCall* call = &everyCall[(i + thread->first) % everyCallCount];
             if (!call->changes) {
-                Read(call, world, &own.given, &thread->failures);
+                Read(call, world, &own->given, &thread->failures);
             }
         }
         thread->looks += Look_World(world);
@@ -157,7 +157,7 @@ TEST(TwoThreads)
                 Read(call, s.tape.host.world, &s.given, &failures);
             }
         }
-        Thread threads[2] = { { &s, 0, 0, 0 }, { &s, everyCallCount / 2, 0, 0 } };
+        Thread threads[2] = { { s, 0, 0, 0 }, { s, everyCallCount / 2, 0, 0 } };
         for (int i = 0; i < 2; ++i) {
             assert_int_equal(pthread_create(&ids[i], NULL, ReadAll, &threads[i]), 0);
         }

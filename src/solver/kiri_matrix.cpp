@@ -420,29 +420,32 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
     if (count == 0 || kiriArchive_HasFailed(archive)) {
         return;
     }
-    if (reads) {
-        matrix->count = count;
-        archive->isShort |= !ReserveFrames(matrix);
+    if (!reads) { /* threads may write at the same time: into no array of the matrix */
+        for (int32_t f = 0, k = 0, first = 0; f < count; ++f, first = k) {
+            for (; k < matrix->pairs.count && matrix->pairs.data[k].a == f; ++k) {
+            }
+            int32_t partners = k - first;
+            kiriArchive_Int32(archive, &partners);
+        }
+        for (int32_t k = 0; k < matrix->pairs.count; ++k) {
+            int32_t partner = matrix->pairs.data[k].b;
+            kiriArchive_Int32(archive, &partner);
+        }
+        return;
     }
+    matrix->count = count;
+    archive->isShort |= !ReserveFrames(matrix);
     if (archive->isShort) {
         return;
     }
     int32_t* partners = matrix->child.data;
-    if (!reads) {
-        std::fill(partners, partners + count, 0);
-        for (int32_t k = 0; k < matrix->pairs.count; ++k) {
-            partners[matrix->pairs.data[k].a] += 1;
-        }
-    }
     kiriArchive_Numbers(archive, partners, 4, count);
     for (int32_t f = 0; f < count; ++f) {
         kiriArchive_Expect(archive, partners[f] >= 0 && partners[f] < count - f);
         total += partners[f];
     }
-    if (reads) {
-        kiriArchive_Expect(archive, total <= most);
-        archive->isShort |= !archive->isBad && !kiriArray_Resize(matrix->memory, &matrix->pairs, total);
-    }
+    kiriArchive_Expect(archive, total <= most);
+    archive->isShort |= !archive->isBad && !kiriArray_Resize(matrix->memory, &matrix->pairs, total);
     kiriPair* pair = matrix->pairs.data;
     for (int32_t f = 0; f < count && !kiriArchive_HasFailed(archive); ++f) {
         for (int32_t last = f, n = 0; n < partners[f]; last = pair->b, ++pair, ++n) {
@@ -451,7 +454,7 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
             kiriArchive_Expect(archive, pair->b > last && pair->b < count);
         }
     }
-    if (reads && !kiriArchive_HasFailed(archive) && !ShapePairs(matrix, most)) {
+    if (!kiriArchive_HasFailed(archive) && !ShapePairs(matrix, most)) {
         bool isTooMuch = matrix->factor.row.count > most;
         kiriArchive_Expect(archive, !isTooMuch);
         archive->isShort |= !isTooMuch;
