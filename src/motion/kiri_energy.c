@@ -163,10 +163,11 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
             double before = kiriFrame_KineticEnergy(start, material);
             double after = kiriFrame_KineticEnergy(end, material);
-            weight -= start->mass * kiriVec3_Dot(gravity, way);
+            double fallen = start->mass * kiriVec3_Dot(gravity, way);
+            weight -= fallen;
             kiriVec3 lag = end->history.turnLag.u; /* a frame moves by h v+ + p+ in the step, and turns likewise */
             lag = kiriMechanics_IsAffine(&system->mechanics) ? kiriMat3_Spin(&end->A, &end->history.turnLag) : lag;
-            double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+            double work = fallen + kiriVec3_Dot(start->force, way) +
                           kiriVec3_Dot(start->torque, kiriVec3_AddScaled(lag, solver->dt, end->spin)) +
                           (hasWind ? kiriWind_Work(solver, system, f) : 0.0);
             kiriFrameData beside = *end;

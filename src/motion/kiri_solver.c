@@ -1224,12 +1224,12 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
     double g = mayTouch ? kiriVec3_Length(kiriSystem_Gravity(system)) : 0.0;
     KIRI_EACH(const int32_t, at, *links) {
         int32_t k = *at;
+        KIRI_ASSERT(k >= 0 && k < system->linkCount);
+        const kiriLink* link = &system->links[k];
         kiriStrainOffset was = offsets[k];
         bool isLimited = g > 0.0 && memcmp(&was, &none, sizeof(none)) != 0;
         double before = isLimited ? ElementEnergy(system, k) : 0.0, part = keep;
-        double weight = system->frames[system->links[k].i].mass * g;
-        double most = before + FADE_GAIN * kiriMax(before, weight * system->links[k].length);
-        KIRI_ASSERT(k >= 0 && k < system->linkCount);
+        double most = before + FADE_GAIN * kiriMax(before, system->frames[link->i].mass * g * link->length);
         KIRI_TIMES_WHILE(trial == 0 || (isLimited && ElementEnergy(system, k) > most), trial, FADE_TRIALS + 1) {
             offsets[k] = was;
             kiriStrainOffset_Fade(offsets[k].strain, plastics != NULL ? &plastics[k] : NULL, KIRI_STRAINS, part);

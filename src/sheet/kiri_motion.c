@@ -163,22 +163,20 @@ void kiriMotion_EndTurns(kiriSheetData* sheet)
     sheet->turns.waiting = 0;
 }
 
-static void SortMoved(kiriSheetData* sheet)
-{
-    kiriTouches_Sort(sheet);
-    kiriSheet_SumRest(sheet);
-}
-
-/* Lists the pieces that are awake as those to move. */
-static void ListAwakePieces(kiriSheetData* sheet)
+/* Lists the pieces that are awake as those to move. Returns true if they are others than before. */
+static bool ListAwakePieces(kiriSheetData* sheet)
 {
     KIRI_ASSERT(sheet->solver->bodies.bodies.count == sheet->layout.pieces.count);
     KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
-    if (kiriSolver_ListMoved(sheet->solver)) {
-        SortMoved(sheet);
-    }
+    return kiriSolver_ListMoved(sheet->solver);
+}
+
+static void SortMoved(kiriSheetData* sheet)
+{
+    kiriTouches_Sort(sheet);
+    kiriSheet_SumRest(sheet);
 }
 
 /* Chooses the pieces that the tick moves. Host contacts of a sleeping piece are compared here; obstacles and other
@@ -194,9 +192,9 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
         return 0;
     }
     FallAsleep(sheet);
-    ListAwakePieces(sheet);
+    bool areOther = ListAwakePieces(sheet);
     int32_t next = systems != NULL ? DeferBodies(sheet, systems) : 0;
-    if (sheet->turns.waiting > 0) {
+    if (areOther || sheet->turns.waiting > 0) {
         SortMoved(sheet);
     }
     return next;
@@ -264,7 +262,9 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
     if (!kiriArray_Reserve(sheet->memory, &tears->before, sheet->frames.count)) {
         return false;
     }
-    ListAwakePieces(sheet);
+    if (ListAwakePieces(sheet)) {
+        SortMoved(sheet);
+    }
     int32_t iterations = sheet->settings.iterations, solved = 0;
     int64_t items = ItemsOfMoved(sheet), most = kiriMin(systems->left / (2 * items), KIRI_MOST_ROUNDS);
     if (most < iterations) {

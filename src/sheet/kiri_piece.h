@@ -22,7 +22,7 @@ bool kiriPieces_AnyGone(const kiriSheetData* sheet);
    Work beside the cut that changed nothing does not count. */
 void kiriPieces_FindTouched(kiriSheetData* sheet);
 
-/* After a commit: copies marks of gone pieces from the old layout, and the sleep of untouched pieces. */
+/* After a commit: takes isGone of all pieces, and the sleep of untouched ones, from the old layout. */
 void kiriPieces_Keep(kiriSheetData* sheet, const kiriLayout* old);
 
 /* Returns the frame that owns a point of the material, for pins and loads. KIRI_NONE outside, and on a destroyed

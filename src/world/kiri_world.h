@@ -248,8 +248,7 @@ kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count)
 
 /* ---- Tears ---- */
 
-/* Begins tears, and queues the next point of each. systems: pay for trial steps (kiriMotion_Foresee). KIRI_ERROR_MEMORY,
-   KIRI_ERROR_LIMIT: some wait. */
+/* Begins tears, and queues their next points. systems: pay for trial steps. KIRI_ERROR_MEMORY, _LIMIT: some wait. */
 kiriResult kiriTears_Grow(kiriWorld* world, double dt, kiriQuota* systems);
 
 /* Ends the tears that rest. */
