@@ -77,7 +77,7 @@ endif
 
 # Samples and games draw by OSMesa, or where Mesa (25.1 and later) has none, by EGL without a surface.
 ifndef RENDERER
-RENDERER := $(shell echo '\#include <GL/osmesa.h>' | $(CC) -E - > /dev/null 2>&1 && echo osmesa || echo egl)
+RENDERER := $(shell $(CC) -E -include GL/osmesa.h -x c /dev/null > /dev/null 2>&1 && echo osmesa || echo egl)
 endif
 GL_LIBRARIES := $(if $(filter egl,$(RENDERER)),-lEGL -lGL,-lOSMesa)
 
@@ -425,7 +425,7 @@ $(BUILD)/samples/kiri-run-egl: $(filter-out %/offscreen.c.o,$(SAMPLE_OBJECTS)) s
 	@$(LINK) -o $@ $(filter %.c.o,$^) $@.o $(filter %.a,$^) -lEGL -lGL -lpng -lz -lm
 
 renderers: $(RUN)
-	@if [ $(RENDERER) = egl ] || ! echo '\#include <EGL/egl.h>' | $(CC) -E - > /dev/null 2>&1; then \
+	@if [ $(RENDERER) = egl ] || ! $(CC) -E -include EGL/egl.h -x c /dev/null > /dev/null 2>&1; then \
 	    echo "renderers: not OSMesa and EGL, not tested"; exit 0; fi; \
 	$(MAKE) --no-print-directory $(BUILD)/samples/kiri-run-egl && mkdir -p $(BUILD)/renderers && \
 	    $(PYTHON) tests/test_renderers.py $(RUN) $(BUILD)/samples/kiri-run-egl $(BUILD)/renderers

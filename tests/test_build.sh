@@ -135,6 +135,10 @@ refuses 'make lib needs libeigen3-dev ' lib
 mkdir -p "$folder/eigen/Eigen"
 touch "$folder/eigen/Eigen/Sparse"
 PATH=$bin run_make CC=cc CXX=c++ lib EIGEN="$folder/eigen" CFLAGS=-DVALUE=1
+draws_by() { # what samples draw by
+    PATH=$bin make CC=cc CXX=c++ EIGEN="$folder/eigen" -pn packages-run 2> /dev/null | grep -q "^RENDERER := $1\$" ||
+        fail "samples do not draw by $1"
+}
 # Without headers but the language's own, whatever this machine has.
 compilers "-nostdinc -I$folder/headers "
 mkdir "$folder/headers"
@@ -150,8 +154,10 @@ rm "$folder/installed"
 stub id 'echo 1000'
 touch "$folder/headers/EGL/egl.h" "$folder/headers/GL/gl.h"
 refuses 'make run needs libpng-dev (' run
+draws_by egl
 rm "$folder/headers/EGL/egl.h"
 touch "$folder/headers/GL/osmesa.h"
+draws_by osmesa
 refuses 'make run needs libpng-dev (' run
 [ ! -e "$folder/installed" ] || fail 'apt-get was called by one who is not root'
 stub id 'echo 0'
