@@ -119,4 +119,67 @@ build source -DFROM="$root" -DKIRI_EIGEN="$EIGEN" \
     ${cache:+-DCMAKE_C_COMPILER_LAUNCHER=$cache -DCMAKE_CXX_COMPILER_LAUNCHER=$cache}
 not_shared "$program_built"
 runs "$program_built"
+
+# ---- Ports: vcpkg's and Conan's go through CMake, Meson's has its own build -----------------------------------------
+
+# The port of vcpkg, with what its calls do: configure, build, install.
+grep -q "\"version\": \"$version\"" bindings/vcpkg/vcpkg.json || fail 'the port of vcpkg has another version'
+cat > "$folder/vcpkg.cmake" << END
+set(CURRENT_PORT_DIR "$root/bindings/vcpkg")
+set(CURRENT_PACKAGES_DIR "$folder/packages")
+function(run)
+    execute_process(COMMAND \${ARGN} RESULT_VARIABLE result)
+    if(result)
+        message(FATAL_ERROR "\${ARGN}")
+    endif()
+endfunction()
+function(vcpkg_cmake_configure name path)
+    run(cmake -S "\${path}" -B "$folder/vcpkg" "-DCMAKE_INSTALL_PREFIX=$folder/packages" "-DKIRI_EIGEN=$EIGEN"
+        ${cache:+-DCMAKE_C_COMPILER_LAUNCHER=$cache -DCMAKE_CXX_COMPILER_LAUNCHER=$cache})
+endfunction()
+function(vcpkg_cmake_install)
+    run(cmake --build "$folder/vcpkg" --target install)
+endfunction()
+function(vcpkg_cmake_config_fixup)
+endfunction()
+function(vcpkg_install_copyright name file)
+    file(COPY "\${file}" DESTINATION "$folder/packages/share/kiri")
+endfunction()
+END
+printf 'include("%s")\n' "$root/bindings/vcpkg/portfile.cmake" >> "$folder/vcpkg.cmake"
+CC=$CC CXX=$CXX quietly cmake -P "$folder/vcpkg.cmake"
+[ -s "$folder/packages/share/kiri/LICENSE" ] || fail 'the port of vcpkg has no copyright'
+prefix="$folder/packages"
+build port -DWANTED="${version%.*}"
+runs "$program_built"
+! configure port_earlier -DWANTED=0.4 || fail 'cmake takes a port with another interface'
+
+if command -v meson > /dev/null; then
+    install_to package-meson
+    mkdir -p "$folder/meson/subprojects"
+    cp -r build/meson/* "$folder/meson/subprojects"
+    cp "$program" "$folder/meson"
+    printf '%s\n' "project('consumer', 'c')" "executable('consumer', 'example.c', dependencies: dependency('kiri', version: '$version'))" \
+        > "$folder/meson/meson.build"
+    for kind in static shared; do
+        CC="${cache:+$cache }$CC" CXX="${cache:+$cache }$CXX" quietly meson setup -Doptimization=0 --default-library $kind "$folder/meson/$kind" "$folder/meson"
+        quietly meson compile -C "$folder/meson/$kind"
+        runs "$folder/meson/$kind/consumer"
+    done
+else
+    echo "consumers: no meson, its wrap not tested"
+fi
+
+# Eigen is the machine's: nothing is fetched.
+if command -v conan > /dev/null; then
+    export CONAN_HOME="$folder/conan"
+    quietly env -u CC -u CXX conan profile detect # it knows no compiler called cc
+    printf '[platform_requires]\neigen/3.4.0\n' >> "$CONAN_HOME/profiles/default"
+    quietly conan create bindings/conan --no-remote -s build_type=Debug
+    quietly conan install --no-remote -s build_type=Debug --requires "kiri/$version" -g CMakeDeps -of "$folder/conan_found"
+    build by_conan -DCMAKE_BUILD_TYPE=Debug -DCMAKE_FIND_PACKAGE_PREFER_CONFIG=ON -Dkiri_DIR="$folder/conan_found" -DLANGUAGE="C;CXX"
+    runs "$program_built"
+else
+    echo "consumers: no conan, its recipe not tested"
+fi
 echo "consumers: the first program runs with the library of each kind"
