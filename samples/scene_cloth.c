@@ -14,11 +14,11 @@ static kiriMaterial Felt(void)
                            .flexDamping = 0.03f };
 }
 
-/* A push against a figure when it comes off, harder the higher above `foot`, so that it topples out of the hole. As
-   short at any pace of the blade: the figure falls as fast. */
-static void PushFigure(Scene* scene, const Stroke* stroke, float foot, float strength)
+/* A push against a figure from `lead` ticks before it comes off, harder the higher above `foot`, so that it topples out
+   of the hole. As short at any pace of the blade: the figure falls as fast. */
+static void PushFigure(Scene* scene, const Stroke* stroke, int32_t lead, float foot, float strength)
 {
-    if (scene->tick <= stroke->lastTick || scene->tick > stroke->lastTick + 12) {
+    if (scene->tick <= stroke->lastTick - lead || scene->tick > stroke->lastTick + 12) {
         return;
     }
     kiriFrame frames[256];
@@ -39,6 +39,7 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
     def.gridResolution = 50;
     def.frameCount = 9;
     def.rigidArea = 0.022f;
+    def.touchesSheets = 1;
     const Rectangle rectangle = { 1.0f, 1.0f, 64, 64, NULL };
     const Figure figure = { "bunny", 0.55f, 0.5f, 0.5f };
     return Scene_MakeRectangle(scene, &def, options, &rectangle) &&
@@ -48,7 +49,7 @@ static bool StartBunny(Scene* scene, const SceneOptions* options)
 
 static void PushBunny(Scene* scene)
 {
-    PushFigure(scene, &scene->strokes[0], 0.45f, 1.0f);
+    PushFigure(scene, &scene->strokes[0], 40, 0.45f, 1.0f);
 }
 
 const SceneType bunnyScene = {
@@ -59,7 +60,7 @@ const SceneType bunnyScene = {
     .substeps = 2,
     .firstCut = 18,
     .lastCut = 138,
-    .moments = { 60, 100, 138, 149, 167, 210 },
+    .moments = { 60, 100, 138, 156, 170, 210 },
     .camera = { { 0.95f, -2.75f, 1.2f }, { 0.04f, -0.1f, 0.64f }, 34.0f },
     .look = { { 0.38f, 0.64f, 0.90f }, { 0.96f, 0.80f, 0.55f }, { 0.93f, 0.30f, 0.12f }, 10.0f },
     .start = StartBunny,
@@ -98,7 +99,7 @@ static bool StartPatchwork(Scene* scene, const SceneOptions* options)
 static void PushPatches(Scene* scene)
 {
     for (int32_t i = 0; i < PATCHES; i++) {
-        PushFigure(scene, &scene->strokes[i], patches[i].v - 0.05f, 1.5f);
+        PushFigure(scene, &scene->strokes[i], 0, patches[i].v - 0.05f, 1.5f);
     }
 }
 
