@@ -78,7 +78,8 @@ static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way,
         spread += weights[n].value * off[n] * off[n];
         last = kiriMax(last, off[n]);
     }
-    double slope = spread > 0.0 ? kiriMin(fabs(mean) / spread, 1.0 / last) : 0.0;
+    /* rounding alone parts frames in a row */
+    double slope = spread > 1e-12 * mean * mean ? kiriMin(fabs(mean) / spread, 1.0 / last) : 0.0;
     KIRI_TIMES(n, count) {
         weights[n].value *= 1.0 - slope * off[n];
         KIRI_ASSERT(weights[n].value > -1e-9 && weights[n].value < 1.0 + 1e-9);
@@ -520,8 +521,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
         kiriVec3 x = kiriVec3_Scale(end == 0 ? 1.0 : -1.0, CarriedEnd(sheet, members, count));
         apart = kiriVec3_Add(apart, x);
         const kiriMaterial* material = &sheet->settings.material;
-        double own = (double)material->youngsModulus * material->thickness;
-        stiffness = kiriMax(own, stiffness);
+        stiffness = kiriMax((double)material->youngsModulus * material->thickness, stiffness);
         mass = kiriMax(sheet->frames.data[members[0].frame].mass, mass);
         seen[end] = BlendedWay(sheet, members, count, row->ways[end]);
         give += GiveOf(sheet, members, count, kiriMesh_Local(&sheet->mesh, data->at[end]), data->inward[end]);
@@ -535,8 +535,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
             member->value = end == 0 ? member->value : -member->value;
         }
     }
-    double pitch = seam->bends ? STIFF_PITCH : SQUARED_PITCH;
-    row->stiffness = data->share * kiriMin(pitch * mass, STITCH_STIFFNESS * stiffness);
+    row->stiffness = data->share * kiriMin((seam->bends ? STIFF_PITCH : SQUARED_PITCH) * mass, STITCH_STIFFNESS * stiffness);
     if (seam->bending > 0.0 && row->solvers[0] != NULL && row->solvers[1] != NULL) {
         double off = AngleBetween(seen[0], seen[1]), sine = DirectionAt(off).y;
         double linear = off > 1e-3 ? off / kiriMax(sine, LEAST_SINE) : 1.0; /* the spring pulls with the sine */
