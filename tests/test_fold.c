@@ -407,6 +407,93 @@ TEST(VerticesFollowRigidFacets)
     assert_true(FoldMiura(3, 3, 60.0 * Degree, 9, 48) < 0.3);
 }
 
+enum { MODE_FRAMES = 32 };
+
+typedef struct Modes {
+    kiriFrame frames[MODE_FRAMES];
+    double at[3 * MODE_FRAMES], mode[2][3 * MODE_FRAMES]; /* centres at rest; ways that they move, of length 1 */
+    int32_t size;
+} Modes;
+
+/* Loads the frames by a mode until they rest, and makes the mode of the way that they went. Returns the compliance. */
+static double Comply(Host* host, Modes* modes, int k, double load)
+{
+    double *mode = modes->mode[k], moved[3 * MODE_FRAMES], length = 0.0, compliance = 0.0, share = 0.0;
+    for (int t = 0; t < 200; ++t) {
+        for (int32_t i = 0; i < modes->size; i += 3) {
+            const float force[3] = { (float)(load * mode[i]), (float)(load * mode[i + 1]), (float)(load * mode[i + 2]) };
+            OK(kiriFrame_ApplyForce(host->world, modes->frames[i / 3], force, noVector));
+        }
+        OK(Host_Tick(host, Dt, 2));
+    }
+    for (int32_t i = 0; i < modes->size; ++i) {
+        kiriFrameState state = World_FrameState(host->world, modes->frames[i / 3]);
+        moved[i] = ((double)state.position[i % 3] - modes->at[i]) / load;
+        compliance += mode[i] * moved[i];
+        share += k > 0 ? modes->mode[0][i] * moved[i] : 0.0;
+    }
+    for (int32_t i = 0; i < modes->size; ++i) {
+        mode[i] = moved[i] - share * modes->mode[0][i];
+        length += mode[i] * mode[i];
+    }
+    for (int32_t i = 0; i < modes->size; ++i) {
+        mode[i] /= sqrt(length);
+    }
+    return compliance;
+}
+
+/* Folds a Miura sheet to 40 degrees, holds a frame, and finds the two softest modes by power iteration. Returns how many
+   times softer the first one is. */
+static double SofterBy(int columns, int32_t frameCount, float stiffness)
+{
+    Miura m;
+    Modes modes;
+    double compliance[2];
+    START_HOST(host);
+    host.every = 1000;
+    World_StopGravity(host.world);
+    Miura_Make(&m, columns, columns, 0.1, 0.1, 60.0 * Degree);
+    kiriSheetDef def = StiffDef();
+    def.material.thickness = 1e-3f;
+    def.material.density = 8.0f;
+    def.frameCount = frameCount;
+    def.iterations = 4;
+    def.gridResolution = 40;
+    kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.1f, 10, 10, m.folds, m.count);
+    for (int t = 0; t <= 260; ++t) {
+        for (int i = 0; i < m.count; ++i) {
+            float zig = t < 200 ? 0.01f : stiffness, angle = (float)(m.sign[i] * fmin(40.0, 0.25 * t) * Degree);
+            OK(kiriSheet_SetFold(host.world, sheet, i, m.isZig[i] ? zig : 0.0f, angle));
+        }
+        OK(Host_Tick(&host, Dt, 2));
+    }
+    modes.size = 3 * World_GetFrames(host.world, sheet, modes.frames, MODE_FRAMES);
+    kiriFrameState first = World_FrameState(host.world, modes.frames[0]);
+    OK(kiriFrame_Hold(host.world, modes.frames[0], first.position, first.rotation));
+    for (int32_t i = 0; i < modes.size; ++i) {
+        modes.at[i] = (double)World_FrameState(host.world, modes.frames[i / 3]).position[i % 3];
+        modes.mode[0][i] = sin(1.0 + 2.0 * i);
+        modes.mode[1][i] = cos(0.7 * i * i);
+    }
+    for (int k = 0; k < 2; ++k) {
+        for (int turn = 0; turn < 5; ++turn) { /* the first turn of the second mode has a share of the first one */
+            compliance[k] = Comply(&host, &modes, k, k == 0 || turn == 0 ? 1e-3 * (double)stiffness : 1e-3);
+        }
+    }
+    print_message("%d frames, folds of %g N: %.3g and %.3g m/N, %.0f times softer\n", (int)modes.size / 3, (double)stiffness,
+                  compliance[0], compliance[1], compliance[0] / compliance[1]);
+    return compliance[0] / compliance[1];
+}
+
+/* A Miura sheet has one degree of freedom, but where folds are as stiff as the facets. */
+TEST(MiuraHasOneSoftMode)
+{
+    for (int32_t frames = 4; frames <= 16; frames += 6) {
+        assert_true(SofterBy(2, frames, 0.001f) > 100.0);
+    }
+    assert_true(SofterBy(3, 18, 0.001f) > 100.0 && SofterBy(2, 16, 3.0f) < 20.0);
+}
+
 /* A waterbomb base from a FOLD file folds from flat to a flat triangle. */
 TEST(WaterbombFolds)
 {
