@@ -121,7 +121,7 @@ IMPORT_OBJECTS := $(filter $(BUILD)/samples/import% %/export.c.o,$(SAMPLE_OBJECT
 # What games and their tests share with the samples.
 PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,canvas canvas_body canvas_camera canvas_overlay image edges lines offscreen)
 # What tests and benchmarks take from the samples: the scenes.
-SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o %/sheets.c.o,$(SAMPLE_OBJECTS))
+SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% $(BUILD)/samples/import% %/creases.c.o %/outline.c.o %/sheets.c.o,$(SAMPLE_OBJECTS))
 # Checks and hashes of a whole world, for all tests.
 VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field validate_seen layout_hash)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
@@ -291,7 +291,7 @@ contact: packages-contact
 	$(BUILD)/tests/contact "$(CASE)"
 
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card crane shirt lantern patch
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
 JOIN = $(PYTHON) samples/join.py samples/pictures/$(1).webp 60 10 build/gallery/$(1)/frame_*.png

@@ -17,7 +17,7 @@ static const float knifeAxes[9] = { 0.788f, 0.544f, -0.289f, 0.0f, 0.469f, 0.883
 
 struct Painter {
     Canvas* canvas;
-    EdgeLines edges;
+    EdgeLines edges[2];
     uint8_t cloth[3 * CLOTH_SIZE * CLOTH_SIZE];
     uint32_t rasters; /* painted */
 };
@@ -52,7 +52,8 @@ void Painter_Destroy(Painter* painter)
     if (painter->canvas != NULL) {
         Canvas_Destroy(painter->canvas);
     }
-    EdgeLines_Free(&painter->edges);
+    EdgeLines_Free(&painter->edges[0]);
+    EdgeLines_Free(&painter->edges[1]);
     free(painter);
 }
 
@@ -64,10 +65,11 @@ static Color MakeColor(const float rgb[3])
 }
 
 /* Without a thickness edges are drawn as lines. The texture stays until the picture is done. */
-static bool AddSheet(Painter* painter, const View* view, float size, CanvasTexture* texture)
+static bool AddSheet(Painter* painter, const View* view, bool isSecond, float size, CanvasTexture* texture)
 {
-    const kiriMesh* mesh = &view->mesh;
-    const Look* look = &view->look;
+    const kiriMesh* mesh = isSecond ? &view->second : &view->mesh;
+    const Look* look = isSecond ? &view->secondLook : &view->look;
+    EdgeLines* edges = &painter->edges[isSecond];
     CanvasSheet sheet = { .positions = mesh->positions,
                           .normals = mesh->normals,
                           .restPositions = mesh->restPositions,
@@ -78,10 +80,10 @@ static bool AddSheet(Painter* painter, const View* view, float size, CanvasTextu
                           .lip = MakeColor(look->lip),
                           .rim = ink };
     if (!view->isSolid) {
-        if (!EdgeLines_Find(&painter->edges, mesh)) {
+        if (!EdgeLines_Find(edges, mesh)) {
             return false;
         }
-        sheet.edges = painter->edges;
+        sheet.edges = *edges;
     }
     if (view->raster != NULL) {
         *texture = (CanvasTexture){ view->raster,      view->rasterSize,
@@ -162,7 +164,7 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     Canvas* canvas = painter->canvas;
     float size = view->size > 0.0f ? view->size : 1.0f, outlines[VIEW_MOST_BLADES][8];
     CanvasCamera camera = { .fieldOfView = view->camera.fieldOfView };
-    CanvasTexture texture;
+    CanvasTexture textures[2];
     for (int i = 0; i < 3; i++) {
         camera.eye[i] = size * view->camera.eye[i];
         camera.target[i] = size * view->camera.target[i];
@@ -171,8 +173,12 @@ bool Painter_Paint(Painter* painter, const View* view, Image* image)
     float knotRadius = 0.008f * CanvasCamera_GetHalfHeight(&camera, away); /* as large in all pictures */
     Canvas_Begin(canvas, &camera, sky, haze);
     Canvas_SetFloor(canvas, -0.002f * size, ground);
-    if (!AddSheet(painter, view, size, &texture)) {
+    if (!AddSheet(painter, view, false, size, &textures[0]) ||
+        (view->second.triangleCount > 0 && !AddSheet(painter, view, true, size, &textures[1]))) {
         return false;
+    }
+    for (int32_t i = 0; i < view->bodyCount; i++) {
+        Canvas_AddBody(canvas, &view->bodies[i]);
     }
     for (int32_t i = 0; i < view->pinCount; i++) {
         if (view->pegs) {

@@ -2,8 +2,7 @@
 #ifndef DRAW_H
 #define DRAW_H
 
-#include "image.h"
-#include "lines.h"
+#include "canvas.h"
 #include "scene.h"
 
 enum { VIEW_MOST_BLADES = 4 };
@@ -14,6 +13,10 @@ typedef struct View {
     kiriMesh mesh;
     bool isSolid; /* it has rims: no lines along its edges */
     Look look;
+    kiriMesh second; /* another sheet with its own look; no triangles: none */
+    Look secondLook;
+    const CanvasBody* bodies;
+    int32_t bodyCount;
     const float* pins; /* 3 a pin: the sheet hangs from threads here */
     int32_t pinCount;
     bool pegs;             /* or it is on pegs in a wall */

@@ -13,7 +13,8 @@
 static const SceneType* const types[] = {
     &bunnyScene,  &spiralScene,     &kirigamiScene, &patchworkScene,
     &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
-    &miuraScene,  &cardScene,
+    &miuraScene,  &cardScene,       &craneScene,    &shirtScene,
+    &lanternScene, &patchScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)

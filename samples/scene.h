@@ -54,23 +54,28 @@ typedef struct SceneType {
     bool together;                  /* all blades at once; else one after the other */
     int32_t moments[SCENE_MOMENTS]; /* ticks worth a picture, rising */
     Camera camera;
-    Look look;
+    Look look, secondLook; /* secondLook: of Scene.second */
     bool pegs; /* pins are pegs in a wall behind the sheet; else knots of threads from above */
     bool (*start)(Scene* scene, const SceneOptions* options); /* makes the sheet, its pins, and the strokes */
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */
 } SceneType;
 
-enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16, SCENE_NOTE_SIZE = 4096 };
+enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16, SCENE_MAX_BODIES = 16, SCENE_NOTE_SIZE = 4096 };
 
 struct Scene {
     const SceneType* type; /* with an own pace: `paced` */
     SceneType paced;
     float pace; /* 1: as the type has it */
     kiriWorld* world;
-    kiriSheet sheet;
+    kiriSheet sheet, second;
     kiriObstacle floor;
+    kiriObstacleDef bodies[SCENE_MAX_BODIES];
+    kiriObstacle bodyIds[SCENE_MAX_BODIES];
+    int32_t bodyCount;
     const kiriFold* folds; /* of the sheet, while it is made; or null */
     int32_t foldCount;
+    float ways[64]; /* of folds of a drawing (creases.h) */
+    int32_t wayCount;
     int32_t gridResolution;
     int32_t tick; /* ticks done */
     Stroke strokes[SCENE_MAX_STROKES];

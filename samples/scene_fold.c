@@ -1,8 +1,10 @@
 /* Sheets of card that fold. */
+#include "creases.h"
 #include "scene_parts.h"
 #include "scene_types.h"
 
-#include <stddef.h>
+#include <math.h>
+#include <stdio.h>
 
 static kiriSheetDef LevelCard(const Scene* scene, const float corner[3], int32_t frames, int32_t grid)
 {
@@ -132,4 +134,65 @@ const SceneType cardScene = {
     .look = CARD_LOOK(0.25f, 0.45f, 0.65f),
     .start = StartCard,
     .push = OpenCard,
+};
+
+/* ---- Crane: a bird base from a FOLD file folds by its rest angles -------------------------------------------------- */
+
+enum { CRANE_FOLDS = 64, CRANE_FIRST = 20, CRANE_LAST = 380 };
+
+static bool ReadFolds(Scene* scene, const SceneOptions* options, const char* name, kiriFold* folds)
+{
+    char path[1024], text[4096];
+    Import drawing = { NULL };
+    snprintf(path, sizeof path, "%s/%s.fold", options->dataFolder, name);
+    FILE* file = fopen(path, "rb");
+    size_t size = file != NULL ? fread(text, 1, sizeof text, file) : 0;
+    if (file != NULL) {
+        fclose(file);
+    }
+    bool fine = Import_Read(&drawing, text, (int64_t)size, 0.01) && Import_Join(&drawing, 0.01);
+    if (fine) {
+        float unit = scene->type->size / (float)Import_GetSize(&drawing);
+        scene->folds = folds;
+        scene->foldCount = Creases_Make(&drawing, unit, 0.02f, folds, scene->ways, CRANE_FOLDS);
+        scene->wayCount = scene->foldCount;
+    }
+    Import_Free(&drawing);
+    return fine && scene->foldCount <= CRANE_FOLDS;
+}
+
+static bool StartCrane(Scene* scene, const SceneOptions* options)
+{
+    kiriFold folds[CRANE_FOLDS];
+    kiriSheetDef def = LevelCard(scene, (float[]){ -0.5f, -0.5f, 0.75f }, 64, 64);
+    return kiriWorld_SetGravity(scene->world, (float[]){ 0.0f, 0.0f, 0.0f }) == KIRI_OK &&
+           ReadFolds(scene, options, "birdbase", folds) &&
+           Scene_MakeRectangle(scene, &def, options, &(Rectangle){ 1.0f, 1.0f, 40, 40, NULL }) &&
+           Scene_PinHere(scene, &def, 0.5f, 0.5f);
+}
+
+static void FoldCrane(Scene* scene)
+{
+    float angle = 3.0f * Scene_Ease(scene->tick, CRANE_FIRST, CRANE_LAST);
+    for (int32_t k = 0; k < scene->wayCount; k++) {
+        kiriFoldState state;
+        kiriSheet_GetFold(scene->world, scene->sheet, k, &state);
+        const float *a = state.fold.from, *b = state.fold.to;
+        float off = fmaxf(fabsf(a[0] - a[1]), fabsf(b[0] - b[1])); /* from the diagonal between the petals */
+        bool isDriven = scene->ways[k] < 0.0f && off < 0.6f * scene->type->size;
+        SetFold(scene, k, isDriven ? 0.05f : 0.001f, scene->ways[k] * angle);
+    }
+}
+
+const SceneType craneScene = {
+    .name = "crane",
+    .about = "a square of card from a FOLD file folds to the base of a crane",
+    .size = 0.24f,
+    .ticks = 460,
+    .substeps = 2,
+    .moments = { 20, 130, 190, 240, 290, 460 },
+    .camera = { { 1.3f, -1.8f, 1.6f }, { 0.0f, 0.0f, 0.62f }, 30.0f },
+    .look = { { 0.22f, 0.50f, 0.60f }, { 0.88f, 0.86f, 0.80f }, { 0.45f, 0.42f, 0.40f }, 0.0f },
+    .start = StartCrane,
+    .push = FoldCrane,
 };

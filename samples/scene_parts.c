@@ -186,6 +186,37 @@ bool Scene_AddFloor(Scene* scene)
     return kiriCreateObstacle(scene->world, &def, &scene->floor) == KIRI_OK;
 }
 
+/* ---- Bodies ----------------------------------------------------------------------------------------------------- */
+
+bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], float radius)
+{
+    const float size = scene->type->size;
+    kiriObstacleDef* def = &scene->bodies[scene->bodyCount];
+    float way[3], length = 0.0f;
+    kiriDefaultObstacleDef(def);
+    for (int i = 0; i < 3; i++) {
+        def->position[i] = 0.5f * size * (from[i] + to[i]);
+        way[i] = to[i] - from[i];
+        length += way[i] * way[i];
+    }
+    length = sqrtf(length);
+    def->type = length > 0.0f ? KIRI_OBSTACLE_CAPSULE : KIRI_OBSTACLE_SPHERE;
+    def->radius = size * radius;
+    def->height = size * length;
+    if (length > 0.0f) { /* axis w; u is across it and y, or x where w is along y */
+        const float w[3] = { way[0] / length, way[1] / length, way[2] / length };
+        float across = sqrtf(w[0] * w[0] + w[2] * w[2]);
+        const float u[3] = { across > 0.0f ? w[2] / across : 1.0f, 0.0f, across > 0.0f ? -w[0] / across : 0.0f };
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+            def->rotation[i] = u[i];
+            def->rotation[3 + i] = w[j] * u[k] - w[k] * u[j];
+            def->rotation[6 + i] = w[i];
+        }
+    }
+    return kiriCreateObstacle(scene->world, def, &scene->bodyIds[scene->bodyCount++]) == KIRI_OK;
+}
+
 /* ---- Time ------------------------------------------------------------------------------------------------------- */
 
 float Scene_Ease(int32_t tick, int32_t first, int32_t last)

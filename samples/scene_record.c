@@ -190,7 +190,7 @@ static bool StartScene(Scene* scene, const SceneType* type, const kiriWorldDef* 
 static void Measure(SceneReplay* replay, const Scene* scene)
 {
     Sheets sheets = { .positions = NULL };
-    if (Sheets_Take(&sheets, scene->world)) {
+    if (Sheets_Take(&sheets, scene->world, 0)) {
         for (int32_t i = 0; i < 3 * sheets.mesh.vertexCount; i++) {
             float *lower = &replay->lower[i % 3], *upper = &replay->upper[i % 3], at = sheets.mesh.positions[i];
             *lower = i < 3 ? at : fminf(*lower, at);

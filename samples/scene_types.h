@@ -8,6 +8,7 @@ extern const SceneType bunnyScene, patchworkScene;                              
 extern const SceneType spiralScene, kirigamiScene, vortexScene, fallingGuyScene; /* scene_paper.c */
 extern const SceneType rubberScene;                                              /* scene_rubber.c */
 extern const SceneType flatScene;                                                /* scene_flat.c */
-extern const SceneType miuraScene, cardScene;                                    /* scene_fold.c */
+extern const SceneType miuraScene, cardScene, craneScene;                        /* scene_fold.c */
+extern const SceneType shirtScene, lanternScene, patchScene;                     /* scene_sewn.c */
 
 #endif

@@ -34,14 +34,17 @@ static void Append(Sheets* sheets, const kiriMesh* mesh)
     all->triangleCount += mesh->triangleCount;
 }
 
-bool Sheets_Take(Sheets* sheets, const kiriWorld* world)
+bool Sheets_Take(Sheets* sheets, const kiriWorld* world, kiriSheet except)
 {
     enum { MOST_SHEETS = 4096 };
     kiriSheet ids[MOST_SHEETS];
     kiriMesh mesh;
-    int32_t count = 0, vertices = 0, triangles = 0;
-    kiriWorld_GetSheets(world, ids, MOST_SHEETS, &count);
-    count = count < MOST_SHEETS ? count : MOST_SHEETS;
+    int32_t all = 0, count = 0, vertices = 0, triangles = 0;
+    kiriWorld_GetSheets(world, ids, MOST_SHEETS, &all);
+    for (int32_t i = 0; i < all && i < MOST_SHEETS; i++) {
+        ids[count] = ids[i];
+        count += ids[i] != except;
+    }
     for (int32_t i = 0; i < count; i++) {
         kiriSheet_GetMesh(world, ids[i], &mesh);
         vertices += mesh.vertexCount;

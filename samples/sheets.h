@@ -13,8 +13,8 @@ typedef struct Sheets {
     kiriMesh mesh; /* of the arrays above */
 } Sheets;
 
-/* Takes the sheets as they are now; a sheet without normals gets (0, 0, 1). False without memory. */
-bool Sheets_Take(Sheets* sheets, const kiriWorld* world);
+/* Takes the sheets but `except` (0: all) as they are now; a sheet without normals gets (0, 0, 1). False without memory. */
+bool Sheets_Take(Sheets* sheets, const kiriWorld* world, kiriSheet except);
 
 /* Zeros are empty ones. */
 void Sheets_Free(Sheets* sheets);

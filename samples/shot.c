@@ -75,6 +75,21 @@ static bool TakeSolid(View* view, const Scene* scene, float thickness)
     return true;
 }
 
+static int32_t TakeBodies(const Scene* scene, CanvasBody bodies[SCENE_MAX_BODIES])
+{
+    const Color wood = { 0.80f, 0.70f, 0.58f, 1.0f };
+    for (int32_t i = 0; i < scene->bodyCount; i++) {
+        const kiriObstacleDef* def = &scene->bodies[i];
+        kiriObstacleState state;
+        bodies[i] = (CanvasBody){ .shape = def->type, .radius = def->radius, .height = def->height, .color = wood };
+        kiriObstacle_GetState(scene->world, scene->bodyIds[i], &state);
+        memcpy(bodies[i].size, def->size, sizeof bodies[i].size);
+        memcpy(bodies[i].position, state.position, sizeof bodies[i].position);
+        memcpy(bodies[i].rotation, state.rotation, sizeof bodies[i].rotation);
+    }
+    return scene->bodyCount;
+}
+
 bool Shot_Take(Shot* shot, const Scene* scene, const Options* options, Image* image)
 {
     View view = { .camera = scene->type->camera,
@@ -83,14 +98,21 @@ bool Shot_Take(Shot* shot, const Scene* scene, const Options* options, Image* im
                   .pins = scene->targets[0],
                   .pinCount = scene->pinCount,
                   .pegs = scene->type->pegs };
+    CanvasBody bodies[SCENE_MAX_BODIES];
     float restPoints[VIEW_MOST_BLADES][2], blades[VIEW_MOST_BLADES][3];
     if (Debug_IsWanted(&options->debug)) { /* a raster over the rest plane is of one sheet */
         kiriSheet_GetMesh(scene->world, scene->sheet, &view.mesh);
-    } else if (Sheets_Take(&shot->sheets, scene->world)) {
+    } else if (Sheets_Take(&shot->sheets, scene->world, scene->second)) {
         view.mesh = shot->sheets.mesh;
     } else {
         return false;
     }
+    if (scene->second != 0 && view.mesh.positions == shot->sheets.mesh.positions) {
+        kiriSheet_GetMesh(scene->world, scene->second, &view.second);
+        view.secondLook = scene->type->secondLook;
+    }
+    view.bodies = bodies;
+    view.bodyCount = TakeBodies(scene, bodies);
     if (options->solid > 0 && !TakeSolid(&view, scene, 1e-3f * (float)options->solid)) {
         return false;
     }
