@@ -33,58 +33,72 @@ static void CountFree(void* user, void* pointer)
 
 /* ---- Features ---- */
 
+typedef bool AddFn(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def);
+
 typedef struct Feature {
     const char* name;
     void (*set)(kiriSheetDef* def);
+    AddFn *add, *addPlain; /* to the world with the feature, and to the one without it; or null */
 } Feature;
 
-static void SetNothing(kiriSheetDef* def)
+/* A function that changes a def. */
+#define SETTER(name, change) static void name(kiriSheetDef* def) { change; }
+
+SETTER(SetNothing, (void)def)
+SETTER(SetPoints, def->collisionPoints = 400)
+SETTER(SetSmooth, def->skinning = KIRI_SKINNING_SMOOTH)
+SETTER(SetNoFade, def->fadeTime = 0.0f)
+SETTER(SetAutomatic, def->frameCount = 0; def->frameLength = 0.2f)
+SETTER(SetAsleep, def->sleepSpeed = 1e6f)
+SETTER(SetPlanar, def->planar = 1)
+SETTER(SetAffine, def->model = KIRI_MODEL_AFFINE)
+SETTER(SetEuler, def->timeStepping = KIRI_TIME_STEPPING_EULER)
+SETTER(SetPaperPoints, def->model = KIRI_MODEL_POINTS)
+SETTER(SetYields, def->material.yieldStress = 1e3f)
+SETTER(SetNeverYields, def->material.yieldStress = 1e12f)
+
+static bool AddFolds(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
 {
-}
-static void SetPoints(kiriSheetDef* def)
-{
-    def->collisionPoints = 400;
-}
-static void SetSmooth(kiriSheetDef* def)
-{
-    def->skinning = KIRI_SKINNING_SMOOTH;
-}
-static void SetNoFade(kiriSheetDef* def)
-{
-    def->fadeTime = 0.0f;
-}
-static void SetAutomatic(kiriSheetDef* def)
-{
-    def->frameCount = 0;
-    def->frameLength = 0.2f;
-}
-static void SetAsleep(kiriSheetDef* def)
-{
-    def->sleepSpeed = 1e6f;
-}
-static void SetPlanar(kiriSheetDef* def)
-{
-    def->planar = 1;
-}
-static void SetAffine(kiriSheetDef* def)
-{
-    def->model = KIRI_MODEL_AFFINE;
-}
-static void SetEuler(kiriSheetDef* def)
-{
-    def->timeStepping = KIRI_TIME_STEPPING_EULER;
-}
-static void SetPaperPoints(kiriSheetDef* def)
-{
-    def->model = KIRI_MODEL_POINTS;
+    int32_t index;
+    bool fine = true;
+    for (int i = 1; fine && i < 4; i++) {
+        const kiriFold fold = { { 0.25f * (float)i, 0.0f }, { 0.25f * (float)i, 1.0f }, 1e-4f, 0.0f, 0.0f };
+        fine = kiriSheet_AddFold(world, sheet, &fold, &index) == KIRI_OK;
+    }
+    return fine;
 }
 
+static kiriSheet lower; /* hangs below */
+
+static bool AddApart(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
+{
+    def->position[2] = -1.0f;
+    return Bench_AddSheet(world, def, SQUARES, &lower) && Bench_PinCorners(world, lower, 1.0f, 0.0f);
+}
+
+static bool AddSewn(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
+{
+    static const float bottom[4] = { 0.0f, 0.0f, 1.0f, 0.0f }, top[4] = { 0.0f, 1.0f, 1.0f, 1.0f };
+    kiriSeamDef seam = DefaultSeam();
+    kiriSeam made;
+    bool fine = AddApart(world, sheet, def);
+    seam.sheetA = sheet;
+    seam.sheetB = lower;
+    seam.lineA = bottom;
+    seam.lineB = top;
+    seam.countA = seam.countB = 2;
+    return fine && kiriCreateSeam(world, &seam, &made) == KIRI_OK;
+}
+
+#define SET(name, set) { name, set, NULL, NULL }
+
 static const Feature features[] = {
-    { "nothing (once more)", SetNothing }, { "collision points, 400", SetPoints },
-    { "smooth skinning", SetSmooth },      { "without fading", SetNoFade },
-    { "automatic frames", SetAutomatic },  { "asleep", SetAsleep },
-    { "backward Euler", SetEuler },        { "planar", SetPlanar },
-    { "affine frames", SetAffine },        { "integration points", SetPaperPoints },
+    SET("nothing (once more)", SetNothing), SET("collision points, 400", SetPoints), SET("smooth skinning", SetSmooth),
+    SET("without fading", SetNoFade), SET("automatic frames", SetAutomatic), SET("asleep", SetAsleep),
+    SET("backward Euler", SetEuler), SET("planar", SetPlanar), SET("affine frames", SetAffine),
+    SET("integration points", SetPaperPoints), SET("yields", SetYields),
+    SET("may yield, and does not", SetNeverYields), { "3 folds", SetNothing, AddFolds, NULL },
+    { "2 sheets sewn, or apart", SetNothing, AddSewn, AddApart },
 };
 enum { FEATURES = sizeof(features) / sizeof(features[0]) };
 
@@ -96,7 +110,7 @@ typedef struct Cost {
     int32_t frames;
 } Cost;
 
-static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def))
+static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def), AddFn* add)
 {
     kiriWorldDef worldDef = DefaultWorld();
     worldDef.alloc = CountAlloc;
@@ -109,7 +123,7 @@ static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheet
     def.sleepSpeed = 0.0f;
     set(&def);
     bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
-                Bench_PinCorners(*world, *sheet, 1.0f, 1.0f);
+                Bench_PinCorners(*world, *sheet, 1.0f, 1.0f) && (add == NULL || add(*world, *sheet, &def));
     return fine;
 }
 
@@ -120,12 +134,12 @@ static double TimedTick(kiriWorld* world)
     return Bench_Clock(NULL) - start;
 }
 
-static bool Run(void (*set)(kiriSheetDef* def), Cost* cost)
+static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
 {
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     SCOPED(Series, plain, Series_Free);
-    if (!MakeWorld(&world, &sheet, set)) {
+    if (!MakeWorld(&world, &sheet, set, add)) {
         return false;
     }
     for (int tick = 0; tick < TICKS; ++tick) {
@@ -157,7 +171,7 @@ static bool Compare(Table* table, const Feature* feature)
     Series tick = { NULL, 0, 0 }, cut = { NULL, 0, 0 };
     Cost plain = { 0 }, used = { 0 };
     for (int run = 0; run < RUNS; ++run) {
-        if (!Run(SetNothing, &plain) || !Run(feature->set, &used)) {
+        if (!Run(SetNothing, feature->addPlain, &plain) || !Run(feature->set, feature->add, &used)) {
             return false;
         }
         Series_Add(&tick, used.tick / plain.tick);

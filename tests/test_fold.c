@@ -4,7 +4,6 @@
 
 #include "layout_hash.h"
 
-
 static const float Dt = 1.0f / 60.0f;
 
 static kiriSheetDef StiffDef(void)

@@ -411,7 +411,7 @@ export class Material {
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
-    /** Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic */
+    /** Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
     yieldStress: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening: number;
@@ -434,7 +434,7 @@ export interface MaterialGiven {
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
-    /** Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic */
+    /** Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
     yieldStress?: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening?: number;

@@ -701,7 +701,7 @@ namespace Kiri
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
-        /// <summary>Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic</summary>
+        /// <summary>Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)</summary>
         public float YieldStress;
         /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
         public float Hardening;

@@ -376,7 +376,8 @@ pub struct kiriMaterial {
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
-    /// Pa, 0 or more: beyond it bending stays (KIRI_MODEL_LINKS only; manual, folding); 0: elastic
+    /// Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual,
+    /// folding)
     pub yieldStress: f32,
     /// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
     pub hardening: f32,

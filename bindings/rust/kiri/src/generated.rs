@@ -791,7 +791,8 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
-    /// Pa, 0 or more: beyond it bending stays ([`Model::Links`] only; manual, folding); 0: elastic
+    /// Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a [`Fold`] (manual,
+    /// folding)
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
