@@ -264,6 +264,8 @@ static void Curtain_GetStatus(void* game, GameStatus* status)
 
 const GameType curtainGame = { .name = "curtain",
                                .about = "cut the marked shapes out of a curtain in the wind",
+                               .keys = "Left button: cut   Right button: pull   Space: leave the hand   "
+                                       "Arrows or A, D: basket",
                                .levels = 5,
                                .start = Curtain_Start,
                                .stop = Curtain_Stop,

@@ -149,7 +149,7 @@ static void DrawWind(Canvas* canvas, const Curtain* curtain)
     Canvas_AddDisc(canvas, x, y, 40.0f, panel);
     Canvas_AddStroke(canvas, shaft, 2, 5.0f, paleInk);
     Canvas_AddDisc(canvas, tip[0], tip[1], 7.0f, ink);
-    Canvas_AddText(canvas, x, y + 48.0f, 12.0f, 0.5f, paleInk, "wind");
+    Canvas_AddText(canvas, x, y + 48.0f, 15.0f, 0.5f, ink, "wind");
 }
 
 static void DrawStatus(Canvas* canvas, const Curtain* curtain)
@@ -171,7 +171,7 @@ static void DrawStatus(Canvas* canvas, const Curtain* curtain)
     }
     Canvas_AddText(canvas, GAME_WIDTH - 24.0f, 18.0f, 22.0f, 1.0f, ink, text);
     if (curtain->tick < 8 * GAME_RATE && curtain->state == GAME_PLAYING) {
-        Canvas_AddText(canvas, 0.5f * GAME_WIDTH, GAME_HEIGHT - 34.0f, 14.0f, 0.5f, ink, level->hint);
+        Canvas_AddText(canvas, 0.5f * GAME_WIDTH, GAME_HEIGHT - 36.0f, 16.0f, 0.5f, ink, level->hint);
     }
 }
 

@@ -51,6 +51,7 @@ typedef struct GameStatus {
 typedef struct GameType {
     const char* name;
     const char* about; /* one line */
+    const char* keys;  /* the same: what its keys and buttons do, those of the shell left out */
     int32_t levels;    /* numbered from 1 */
 
     void* (*start)(int32_t level, const GameHost* host); /* null: it says on stderr what failed */

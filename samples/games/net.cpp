@@ -265,7 +265,12 @@ int NetGame_GetScore(const NetGame& game)
 }
 
 const GameType netGame = { "net",     "slice what crates hang on, so that they come to rest in their goals",
-                           LEVELS,    Start,
-                           Stop,      Event,
-                           Tick,      Draw,
-                           GetStatus, nullptr };
+                           "Left button: cut",
+                           LEVELS,
+                           Start,
+                           Stop,
+                           Event,
+                           Tick,
+                           Draw,
+                           GetStatus,
+                           nullptr };

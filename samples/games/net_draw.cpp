@@ -146,6 +146,18 @@ void DrawBody(Canvas* canvas, const NetBody& body, float alpha, float seconds)
     }
 }
 
+/* Behind the crates, from the lower side of a goal up. */
+void AddPane(Canvas* canvas, const float* goal, float height, float depth, const Color& color)
+{
+    Pose pose = { { goal[0], depth * NET_DEPTH, goal[1] + 0.5f * (height - goal[3]) },
+                  { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f } };
+    CanvasBody pane = BodyAt(CANVAS_PLANE, pose, color);
+    pane.size[0] = goal[2];
+    pane.size[1] = height;
+    pane.shadowless = true;
+    Canvas_AddBody(canvas, &pane);
+}
+
 /* A frame with corners, in the colour of its crate; it fills while the crate rests there. */
 void DrawGoal(Canvas* canvas, const CanvasCamera& camera, const NetBody& goal)
 {
@@ -157,9 +169,8 @@ void DrawGoal(Canvas* canvas, const CanvasCamera& camera, const NetBody& goal)
     CanvasCamera_Project(&camera, high, &right, &top);
     float done = std::min(1.0f, static_cast<float>(goal.restTicks) / NET_REST_TICKS);
     Color color = done >= 1.0f ? GOOD : Mix(ColorOf(value[4]), INK, 0.15f);
-    Canvas_AddRectangle(canvas, left, top, right - left, bottom - top, Fade(color, 0.16f));
-    Canvas_AddRectangle(canvas, left, bottom - done * (bottom - top), right - left, done * (bottom - top),
-                        Fade(GOOD, 0.25f));
+    AddPane(canvas, value, value[3], 1.0f, Fade(color, 0.20f));
+    AddPane(canvas, value, done * value[3], 0.9f, Fade(GOOD, 0.35f));
     float arm = 0.25f * std::min(right - left, bottom - top);
     for (int i = 0; i < 4; ++i) {
         float x = i % 2 != 0 ? right : left, y = i / 2 != 0 ? bottom : top;
@@ -205,25 +216,26 @@ void DrawTrail(const NetGame& game, Canvas* canvas)
 
 void DrawHud(const NetGame& game, Canvas* canvas)
 {
-    char text[96];
-    Canvas_AddRectangle(canvas, 0.0f, 0.0f, GAME_WIDTH, 46.0f, Fade(INK, 0.82f));
-    Canvas_AddText(canvas, 18.0f, 14.0f, 18.0f, 0.0f, SKY, game.level.name.c_str());
+    char text[96], title[96];
+    const bool isWon = game.state == GAME_WON, isOver = game.state != GAME_PLAYING;
     const NetItem* par = NetGame_FindPar(game);
-    std::snprintf(text, sizeof text, "cuts %d, par %d   time %d.%d s   score %d", game.cuts,
-                  par != nullptr ? static_cast<int>(par->value[0]) : 0, game.ticks / GAME_RATE,
-                  game.ticks % GAME_RATE / 6, NetGame_GetScore(game));
-    Canvas_AddText(canvas, GAME_WIDTH - 18.0f, 14.0f, 18.0f, 1.0f, SKY, text);
-    if (game.state == GAME_PLAYING) {
-        Canvas_AddText(canvas, 0.5f * GAME_WIDTH, GAME_HEIGHT - 24.0f, 13.0f, 0.5f, Fade(INK, 0.75f),
-                       game.level.hint.c_str());
-        return;
+    Canvas_AddRectangle(canvas, 0.0f, 0.0f, GAME_WIDTH, 46.0f, isOver ? isWon ? GOOD : BAD : Fade(INK, 0.82f));
+    const char* result = isOver ? isWon ? ": well cut" : ": dropped" : "";
+    std::snprintf(title, sizeof title, "%s%s", game.level.name.c_str(), result);
+    Canvas_AddText(canvas, 18.0f, 14.0f, 18.0f, 0.0f, SKY, title);
+    if (isOver) {
+        std::snprintf(text, sizeof text, isWon ? "score %d   N: next level   R: again" : "R: again",
+                      NetGame_GetScore(game));
+    } else {
+        std::snprintf(text, sizeof text, "cuts %d, par %d   time %d.%d s   score %d", game.cuts,
+                      par != nullptr ? static_cast<int>(par->value[0]) : 0, game.ticks / GAME_RATE,
+                      game.ticks % GAME_RATE / 6, NetGame_GetScore(game));
     }
-    bool isWon = game.state == GAME_WON;
-    Canvas_AddRectangle(canvas, 230.0f, 64.0f, 500.0f, 118.0f, Fade(isWon ? GOOD : BAD, 0.92f));
-    Canvas_AddText(canvas, 480.0f, 82.0f, 36.0f, 0.5f, SKY, isWon ? "Well cut" : "Dropped");
-    std::snprintf(text, sizeof text, isWon ? "%d points    N: next level    R: again" : "R: again",
-                  NetGame_GetScore(game));
-    Canvas_AddText(canvas, 480.0f, 142.0f, 16.0f, 0.5f, SKY, text);
+    Canvas_AddText(canvas, GAME_WIDTH - 18.0f, 14.0f, 18.0f, 1.0f, SKY, text);
+    if (!isOver) {
+        Canvas_AddText(canvas, 0.5f * GAME_WIDTH, GAME_HEIGHT - 26.0f, 15.0f, 0.5f, Fade(INK, 0.85f),
+                       game.level.hint.c_str());
+    }
 }
 
 } // namespace

@@ -47,7 +47,8 @@ static void PrintHelp(const GameType* const* games)
 {
     printf("kiri-play: games with sheets\n\n");
     for (; *games != NULL; games++) {
-        printf("  --game %-10s %s; %d levels\n", (*games)->name, (*games)->about, (*games)->levels);
+        printf("  --game %-10s %s; %d levels\n%20s%s\n", (*games)->name, (*games)->about, (*games)->levels, "",
+               (*games)->keys);
     }
     printf("  --level N\n"
            "  --script FILE     plays recorded events (a script names its game and level)\n"
@@ -65,7 +66,8 @@ static void PrintHelp(const GameType* const* games)
            "  --hash            prints the state hash at the end\n"
            "  --report          prints times and memory of each minute\n"
            "  --mute\n\n"
-           "In the window: R again, N next level, P pause, Z undo, S held: slow motion, M sound, Escape: quit.\n",
+           "In the window: R again, N next level, P pause and keys, Z undo, S held: slow motion, M sound, Escape: "
+           "quit.\n",
            DEFAULT_TICKS, GAME_WIDTH, GAME_HEIGHT);
 }
 
@@ -246,7 +248,9 @@ static bool Draw(Shell* shell, float alpha)
         const Color shade = { 0.0f, 0.0f, 0.0f, 0.35f }, white = { 1.0f, 1.0f, 1.0f, 1.0f };
         Canvas_AddRectangle(shell->canvas, 0.0f, 0.0f, GAME_WIDTH, GAME_HEIGHT, shade);
         Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT, 42.0f, 0.5f, white, "Pause");
-        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT + 70.0f, 13.0f, 0.5f, white,
+        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT + 70.0f, 15.0f, 0.5f, white,
+                       shell->play.type->keys);
+        Canvas_AddText(shell->canvas, 0.5f * GAME_WIDTH, 0.45f * GAME_HEIGHT + 104.0f, 15.0f, 0.5f, white,
                        "P: go on   R: again   N: next level   Z: undo   S: slow motion   M: sound   Esc: quit");
     }
     if (!Canvas_Finish(shell->canvas, &shell->image)) {
@@ -422,7 +426,7 @@ static bool OpenWindow(Shell* shell)
     const Options* options = &shell->options;
     if (!options->headless) {
         char title[64];
-        snprintf(title, sizeof title, "Kiri: %s", shell->play.type->name);
+        snprintf(title, sizeof title, "Kiri: %s (P: keys)", shell->play.type->name);
         shell->window = Window_Open(title, options->width, options->height, options->mute);
     }
     return options->headless || shell->window != NULL;
