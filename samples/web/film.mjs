@@ -54,6 +54,11 @@ async function cut(tab, starts = 0) {
 
 const tab = await browser.open("?still", { viewport: { width: 640, height: 400 } });
 await tab.addStyleTag({ content: "#task, #dock, #more, #hint { display: none !important; }" });
+await tab.evaluate(() => { // the same film on any machine
+    const { simulation } = globalThis.game;
+    simulation.world.setBudget({});
+    simulation.measure = () => {};
+});
 await pass(tab, 0.5);
 await tab.evaluate(() => {
     while (globalThis.game.later.length) {
