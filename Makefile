@@ -310,7 +310,7 @@ gallery: packages-gallery trade
 	$(PLAY) $(NET_FILM) $(PLAY_FILM) --pictures build/gallery/net
 	$(call JOIN,curtain)
 	$(call JOIN,net)
-	$(BOX2D) --output build/gallery/box2d
+	$(BOX2D) --size 800x600 --ticks 180 --every 30 --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/
 	cp build/accuracy/trade.csv samples/manual/

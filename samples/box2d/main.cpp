@@ -256,10 +256,10 @@ bool Paint(Simulation& simulation, Canvas* canvas, EdgeLines* edges, Image* imag
     return Canvas_Finish(canvas, image);
 }
 
-/* Pictures one after the other in rows of four, at half their size. */
+/* Pictures one after the other in rows of three, at half their size. */
 bool WriteContactSheet(const std::vector<Image>& pictures, const Options& options)
 {
-    const int columns = 4, count = static_cast<int>(pictures.size()), rows = (count + columns - 1) / columns;
+    const int columns = 3, count = static_cast<int>(pictures.size()), rows = (count + columns - 1) / columns;
     const int width = options.width / 2, height = options.height / 2;
     Image sheet, small;
     bool good = Image_Create(&sheet, columns * width, rows * height) && Image_Create(&small, width, height);
