@@ -53,6 +53,39 @@ void kiriField_Clear(kiriField* field)
     field->stage = REPAIR_NONE;
 }
 
+/* ---- Steps to some values ---------------------------------------------------------------------------------------- */
+
+enum { BELOW = -1, EQUAL, ABOVE };
+
+/* Returns the steps of a cell that may lead to values below, equal to, or above `than` plus `sign` times their length:
+   a bit each, in their order. Of cells that are not open: all bits. */
+static inline int32_t HitsAt(const kiriField* field, const kiriGrid* grid, int32_t cell, int which, int32_t than,
+                             int32_t sign)
+{
+    if (!kiriGrid_IsOpen(grid, cell)) {
+        return -1;
+    }
+    const ptrdiff_t row = grid->openSteps[3].cell;
+    const int32_t *has = field->distance.data + cell, *up = has - row, *down = has + row;
+    const int32_t to[KIRI_OPEN_STEPS] = { up[0],    has[-1],      has[1],       down[0], up[-1],   up[1],   down[-1],
+                                          down[1],  up[-1 - row], up[1 - row],  up[-2],  up[2],    down[-2], down[2],
+                                          down[row - 1], down[row + 1] };
+    const int32_t limits[3] = { than + sign * KIRI_UNIT, than + sign * KIRI_UNIT_DIAGONAL,
+                                than + sign * KIRI_UNIT_KNIGHT };
+    uint32_t hits = 0;
+    for (int k = KIRI_OPEN_STEPS - 1; k >= 0; --k) {
+        int32_t limit = limits[k < 4 ? 0 : k < 8 ? 1 : 2];
+        hits += hits + (which == BELOW ? to[k] < limit : which == EQUAL ? to[k] == limit : to[k] > limit);
+    }
+    return (int32_t)hits;
+}
+
+/* Walks over the steps that `hits` names, and shifts it: a negative number keeps all its bits. */
+#define EACH_HIT(step, grid, cell, hits)                                                                               \
+    for (kiriStepWalk step = kiriGrid_Walk(grid, cell, KIRI_KNIGHT); (hits) != 0 && kiriStepWalk_Next(&step);          \
+         (hits) >>= 1)                                                                                                 \
+        if (((hits) & 1) != 0)
+
 /* ---- The sweep: Dijkstra in buckets ------------------------------------------------------------------------------ */
 
 /* A bucket has the cells of KIRI_UNIT distances. No step is shorter, so no cell of a bucket makes another one nearer,
@@ -168,27 +201,9 @@ static inline bool TakeGridStep(kiriField* field, kiriMemory* memory, kiriSeed t
 static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from,
                                  int32_t room, bool repairs)
 {
-    bool ok = true;
-    if (kiriGrid_IsOpen(grid, from.cell) && room >= KIRI_UNIT_KNIGHT) {
-        const kiriStep* steps = grid->openSteps;
-        const int32_t* has = field->distance.data + from.cell;
-        const int32_t passed = from.distance - (from.owner != KIRI_NONE); /* a lower owner wins where both are as far */
-        uint32_t hits = 0;
-        KIRI_TIMES(k, 4) {
-            hits |= (uint32_t)(passed + KIRI_UNIT < has[steps[k].cell]) << k;
-            hits |= (uint32_t)(passed + KIRI_UNIT_DIAGONAL < has[steps[k + 4].cell]) << (k + 4);
-            hits |= (uint32_t)(passed + KIRI_UNIT_KNIGHT < has[steps[k + 8].cell]) << (k + 8);
-            hits |= (uint32_t)(passed + KIRI_UNIT_KNIGHT < has[steps[k + 12].cell]) << (k + 12);
-        }
-        for (int k = 0; hits >> k != 0; ++k) {
-            if ((hits >> k & 1) != 0) {
-                kiriSeed to = { from.cell + steps[k].cell, from.distance + steps[k].length, from.owner };
-                ok = TakeGridStep(field, memory, to, repairs) && ok;
-            }
-        }
-        return ok;
-    }
-    KIRI_EACH_STEP(step, grid, from.cell, KIRI_KNIGHT) {
+    const int32_t passed = from.distance - (from.owner != KIRI_NONE); /* a lower owner wins where both are as far */
+    int32_t hits = room < KIRI_UNIT_KNIGHT ? -1 : HitsAt(field, grid, from.cell, ABOVE, passed, 1);
+    EACH_HIT(step, grid, from.cell, hits) {
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
         if (step.length <= room && !TakeGridStep(field, memory, to, repairs)) {
             return false;
@@ -290,7 +305,8 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
     if (value.distance > rule->limit) {
         return false;
     }
-    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+    int32_t hits = HitsAt(field, rule->grid, cell, EQUAL, value.distance, -1);
+    EACH_HIT(step, rule->grid, cell, hits) {
         int32_t next = step.cell;
         if (field->distance.data[next] == value.distance - step.length && ValueOf(field, next).owner == value.owner &&
             Passes(rule, next)) {
@@ -305,7 +321,8 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
 static bool AddDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriSeed value = ValueOf(field, cell);
-    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+    int32_t hits = HitsAt(field, rule->grid, cell, EQUAL, value.distance, 1);
+    EACH_HIT(step, rule->grid, cell, hits) {
         int32_t next = step.cell;
         if (field->distance.data[next] == value.distance + step.length && ValueOf(field, next).owner == value.owner &&
             (field->marks.data[next] & FIELD_DIRTY) == 0) {
@@ -352,7 +369,8 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
 {
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     best = best.distance <= rule->limit && IsNearerSeed(best, value) ? best : value;
-    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+    int32_t hits = HitsAt(field, rule->grid, cell, BELOW, kiriMin(best.distance, rule->limit) + 1, -1);
+    EACH_HIT(step, rule->grid, cell, hits) {
         int32_t distance = field->distance.data[step.cell];
         if (distance <= kiriMin(best.distance, rule->limit) - step.length) {
             kiriSeed over = { cell, distance + step.length, ValueOf(field, step.cell).owner };

@@ -144,7 +144,8 @@ void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames);
 
 static inline int32_t kiriReach_BlockOf(int32_t cell)
 {
-    return cell / KIRI_BLOCK_CELLS;
+    KIRI_ASSERT(cell >= 0);
+    return (int32_t)((uint32_t)cell / KIRI_BLOCK_CELLS);
 }
 
 KIRI_C_END

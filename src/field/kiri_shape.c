@@ -316,17 +316,23 @@ static inline void LoadBlock(const ShapeJob* job, int32_t cells)
     }
 }
 
-/* Loads the cells that the steps of this one lead to. */
+/* Loads the cells that the steps of this one lead to: all are, if the ends of the rows around an open one are. */
 static void LoadAround(const void* context, int32_t cell)
 {
     const ShapeJob* job = context;
+    const uint8_t* isLoaded = job->work->isLoaded.data;
     uint8_t* mark = &job->work->marks.data[cell];
-    if ((*mark & MARK_SEEN) == 0) {
+    bool isReady = (*mark & MARK_SEEN) != 0 || kiriGrid_IsOpen(job->grid, cell);
+    for (int32_t v = -2; isReady && (*mark & MARK_SEEN) == 0 && v <= 2; ++v) {
+        int32_t at = cell + v * job->grid->mesh->squares.columns, reach = v == -1 || v == 1 ? 2 : 1;
+        isReady = isLoaded[kiriReach_BlockOf(at - reach)] && isLoaded[kiriReach_BlockOf(at + reach)];
+    }
+    if (!isReady) {
         KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
             LoadBlock(job, kiriReach_BlockOf(step.cell));
         }
-        *mark |= MARK_SEEN;
     }
+    *mark |= MARK_SEEN;
 }
 
 /* Marks the seeds that may differ where a cell has another owner or distance: its own seed, and the seeds of cells
