@@ -224,11 +224,12 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
         return false;
     }
     KIRI_NEXT(stencil->steps) = (kiriStep){ cell, 0, 0, 0 };
-    KIRI_TIMES(k, end) {
-        InsertStep(stencil, grid, kiriSteps_At(&steps, plain ? sorted[k] : k));
+    KIRI_TIMES_WHILE(plain, k, end) {
+        KIRI_NEXT(stencil->steps) = kiriSteps_At(&steps, sorted[k]);
     }
     KIRI_TIMES_WHILE(!plain, k, end) {
         const kiriStep to = kiriSteps_At(&steps, k);
+        InsertStep(stencil, grid, to);
         kiriSteps more = kiriGrid_GetSteps(grid, to.cell);
         if (!kiriArray_ReserveMore(memory, &stencil->steps, more.end[0])) {
             return false;
