@@ -225,13 +225,15 @@ static void CollectVertices(const kiriMeeting* meeting)
     int32_t low = INT32_MAX, high = -1;
     search->mark += 1;
     search->vertices.count = 0;
-    for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
-        int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
-        if (search->marks.data[vertex] != search->mark) {
-            search->marks.data[vertex] = search->mark;
-            KIRI_NEXT(search->vertices) = vertex;
-            low = kiriMin(vertex, low);
-            high = kiriMax(vertex, high);
+    KIRI_EACH(const int32_t, triangle, search->triangles) {
+        KIRI_EACH_CORNER(k) {
+            int32_t vertex = indices[3 * (int64_t)*triangle + k];
+            if (search->marks.data[vertex] != search->mark) {
+                search->marks.data[vertex] = search->mark;
+                KIRI_NEXT(search->vertices) = vertex;
+                low = kiriMin(vertex, low);
+                high = kiriMax(vertex, high);
+            }
         }
     }
     if (high - low > 16 * (int64_t)search->vertices.count) {

@@ -141,6 +141,26 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
     bounds->sorted = surface->triangleCount;
 }
 
+/* Returns the least box around triangles in world space. Compares floats: sums with the middle keep their order. */
+static kiriBox BoxOfLeaf(const kiriSurface* surface, const int32_t* triangles, int32_t count)
+{
+    const float* places = kiriSurface_Places(surface);
+    float lower[3] = { FLT_MAX, FLT_MAX, FLT_MAX }, upper[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX };
+    KIRI_TIMES(i, count) {
+        const int32_t* corner = kiriSurface_Triangle(surface, triangles[i]);
+        KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
+            const float* at = places + 3 * (size_t)corner[k];
+            KIRI_TIMES(m, 3) {
+                lower[m] = kiriMin(at[m], lower[m]);
+                upper[m] = kiriMax(at[m], upper[m]);
+            }
+        }
+    }
+    return lower[0] > upper[0] ? KIRI_EMPTY_BOX
+                               : (kiriBox){ kiriVec3_Add(surface->middle, kiriVec3_Load(lower)),
+                                            kiriVec3_Add(surface->middle, kiriVec3_Load(upper)) };
+}
+
 /* Fits the boxes of all nodes, or of those that move. */
 static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8_t* moves)
 {
@@ -151,17 +171,10 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
                 continue;
             }
             int32_t first, end = LeafItems(bounds, level, node, &first);
-            kiriBox box = KIRI_EMPTY_BOX;
+            kiriBox box = level == 0 ? BoxOfLeaf(surface, &bounds->order.data[first], end - first) : KIRI_EMPTY_BOX;
             for (int32_t i = first; level > 0 && i < end; ++i) {
                 box.lower = kiriVec3_Least(nodes[i].lower, box.lower);
                 box.upper = kiriVec3_Most(nodes[i].upper, box.upper);
-            }
-            for (int32_t i = first; level == 0 && i < end; ++i) {
-                const int32_t* corner = kiriSurface_Triangle(surface, bounds->order.data[i]);
-                KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
-                    kiriVec3 at = kiriSurface_At(surface, corner[k]);
-                    kiriBox_Add(&box, at);
-                }
             }
             nodes[node] = box;
         }
@@ -312,8 +325,6 @@ static bool WalkTree(const BoxWalk* walk)
 
 typedef struct TriangleSearch {
     const kiriSurface* surface;
-    kiriMeetsFn* meets;
-    const void* space;
     kiriMemory* memory;
     kiriIndices* found;
 } TriangleSearch;
@@ -323,8 +334,7 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     const TriangleSearch* search = context;
     bool ok = true;
     KIRI_TIMES_WHILE(ok, i, count) {
-        kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
-        if (!IsHidden(search->surface, triangles[i]) && search->meets(search->space, &box)) {
+        if (!IsHidden(search->surface, triangles[i])) {
             ok = kiriArray_Push(search->memory, search->found, triangles[i]);
         }
     }
@@ -336,6 +346,13 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
 {
     int32_t before = found->count;
     bool ok = kiriBounds_FindMoving(bounds, surface, meets, context, 0, memory, found);
+    int32_t end = found->count;
+    found->count = before;
+    KIRI_FROM_TO(i, before, end) {
+        kiriBox box = BoxOfTriangle(surface, found->data[i]);
+        found->data[found->count] = found->data[i];
+        found->count += meets(context, &box);
+    }
     if (ok && found->count > before) {
         kiriSort(found->data + before, found->count - before, NULL, NULL);
     }
@@ -346,7 +363,7 @@ bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found)
 {
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, meets, context, memory, found };
+    TriangleSearch search = { surface, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }
