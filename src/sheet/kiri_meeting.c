@@ -186,8 +186,7 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margi
 /* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
 static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
 {
-    bool pushed = height <= 2.0 * meeting->gap &&
-                  kiriTouches_Find(meeting->sheet, MakeKey(meeting, false, (uint32_t)vertex)) != NULL;
+    bool pushed = height <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
     return pushed ? PREFERRED * meeting->gap : 0.0;
 }
 
@@ -223,7 +222,7 @@ static void CollectVertices(const kiriMeeting* meeting)
     kiriObstacleSearch* search = meeting->search;
     const int32_t* indices = meeting->sheet->seen.surface.indices.data;
     int32_t low = INT32_MAX, high = -1;
-    search->mark += 1;
+    search->mark += 2;
     search->vertices.count = 0;
     KIRI_EACH(const int32_t, triangle, search->triangles) {
         KIRI_EACH_CORNER(k) {
@@ -247,11 +246,25 @@ static void CollectVertices(const kiriMeeting* meeting)
     }
 }
 
+/* Marks the found vertices that had a force. Keys of a save may say anything. */
+static void MarkPushed(const kiriMeeting* meeting, const kiriTouchMemory* memory)
+{
+    kiriObstacleSearch* search = meeting->search;
+    KIRI_EACH(const kiriTouchForce, force, memory->forces) {
+        uint32_t vertex = (uint32_t)(force->key & (ROUND_ITEM - 1));
+        if (force->key == MakeKey(meeting, false, vertex) && vertex < (uint32_t)search->marks.count) {
+            search->marks.data[vertex] += search->marks.data[vertex] == search->mark;
+        }
+    }
+}
+
 static void ChooseVertices(const kiriMeeting* meeting)
 {
     kiriObstacleSearch* search = meeting->search;
     search->chosen.count = 0;
     CollectVertices(meeting);
+    MarkPushed(meeting, &meeting->sheet->touches.last);
+    MarkPushed(meeting, &meeting->sheet->touches.slept);
     KIRI_EACH(const int32_t, vertex, search->vertices) {
         LookAtVertex(meeting, *vertex);
     }
@@ -902,6 +915,13 @@ static int64_t VersionOf(const kiriSheetData* sheet)
 static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
     const kiriPiece* pieces = sheet->layout.pieces.data;
+    int32_t awake = 0;
+    while (awake < sheet->layout.pieces.count && kiriPiece_MayMove(&pieces[awake])) {
+        ++awake;
+    }
+    if (awake == sheet->layout.pieces.count) {
+        return;
+    }
     KIRI_KEEP_IF(const int32_t, at, search->triangles, kiriPiece_MayMove(&pieces[kiriPiece_OfTriangle(sheet, *at)]));
 }
 

@@ -27,8 +27,8 @@ typedef struct kiriObstacleSearch {
     kiriIndices triangles;      /* near the obstacle, in no order */
     kiriIndices vertices;       /* vertices of these triangles, ascending */
     kiriIndices crossed;        /* triangles near a point of an edge */
-    KIRI_ARRAY(uint32_t) marks; /* per vertex: `mark` of the last search that visited it */
-    uint32_t mark;              /* number of this search */
+    KIRI_ARRAY(uint32_t) marks; /* per vertex: `mark` of the last search that visited it, and 1 if it had a force */
+    uint32_t mark;              /* twice the number of this search */
     kiriIndices heads;          /* per patch: first entry of `chosen`, or KIRI_NONE */
     KIRI_ARRAY(kiriNearVertex) chosen;
 } kiriObstacleSearch;
