@@ -203,7 +203,7 @@ TEST(ZigzagsTwistAsTheyShould)
             worst = off > worst ? off : worst;
         }
         print_message("%d frames, nu %.1f: %.2f %%\n", counts[k / 2], 0.3 * (k % 2), 100.0 * worst);
-        assert_true(worst < (counts[k / 2] > 12 ? 0.08 : 0.01));
+        assert_true(worst < (counts[k / 2] > 12 ? 0.03 : 0.01));
     }
 }
 

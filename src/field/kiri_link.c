@@ -996,20 +996,19 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
    `beyond`, because it may lie on a slit. */
 static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
+    bool all = ends->end[0].kind == KIRI_END_OPEN && ends->end[1].kind == KIRI_END_OPEN;
     double sum = 0.0;
     KIRI_TIMES(k, 2) {
         double way = kiriVec2_Dot(kiriVec2_Sub(ends->end[k].at, link->crossing), link->tangent);
         way = k == 0 ? -way : way;
         sum += ends->end[k].kind == KIRI_END_OPEN && way > 0.0 ? way : 0.0;
         double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
-        if (ends->end[k].kind == KIRI_END_OPEN && ends->end[k].isExact && fabs(along) > LEAST_ALONG) {
+        if (!all && ends->end[k].kind == KIRI_END_OPEN && ends->end[k].isExact && fabs(along) > LEAST_ALONG) {
             link->lean = kiriVec2_Dot(ends->end[k].edge, link->tangent) / along;
         }
     }
-    bool all = ends->end[0].kind == KIRI_END_OPEN && ends->end[1].kind == KIRI_END_OPEN;
     link->outer = all ? link->width : kiriMin(sum, link->width);
-    link->lean = all ? 0.0 : link->lean;
-    link->beyond = link->width > kiriSliver * u->grid->side ? kiriMax(sum - link->width, 0.0) : 0.0;
+    link->beyond = !all && link->width > kiriSliver * u->grid->side ? kiriMax(sum - link->width, 0.0) : 0.0;
 }
 
 /* Turns the axes of a border that runs aslant from edge to edge. A strip bends and stretches along its edges, so the

@@ -272,10 +272,11 @@ typedef struct kiriCurl {
     double gain, perSquare;
 } kiriCurl;
 
-/* Returns the part of a link's width that is open at both of its ends, m. */
+/* Returns the part of a link's width that is open at both of its ends, m. A border beside its crossing is open at one end:
+   the part fades over a twentieth of the width. */
 static inline double kiriLink_LoneWidth(const kiriLink* link)
 {
-    double lone = 2.0 * link->outer - link->width;
+    double lone = 2.0 * link->outer - link->width - 20.0 * link->beyond;
     return kiriMax(lone, 0.0);
 }
 
