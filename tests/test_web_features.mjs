@@ -284,6 +284,28 @@ async function sliderTells(tab) {
     await tab.evaluate(() => globalThis.game.restart({ quality: 1 }));
 }
 
+/** The origami is flat, and folds as far as its slider says. */
+async function sliderFolds(tab) {
+    const slide = (to) => tab.evaluate((to) => {
+        const slider = document.querySelector("#fold input");
+        slider.value = to;
+        slider.dispatchEvent(new Event("input"));
+    }, to);
+    const angles = () => tab.evaluate(() => [0, 1, 10].map((i) => globalThis.game.simulation.sheet.getFold(i).angle));
+    await press(tab, "Origami");
+    await frame(tab, 10);
+    assert.ok((await angles()).every((angle) => Math.abs(angle) < 0.05), "flat");
+    for (const share of [100, 50]) {
+        await slide(share);
+        await frame(tab, 180);
+        const zigzag = 0.011 * share, line = 2 * Math.atan(Math.tan(zigzag / 2) / Math.sqrt(5));
+        (await angles()).forEach((angle, i) => assert.ok(Math.abs(angle - [-zigzag, line, zigzag][i]) < 0.05, `${share}: ${angle}`));
+        await picture(tab, `origami_${share}`);
+    }
+    await press(tab, "New sheet");
+    assert.ok(await tab.evaluate(() => document.getElementById("fold").hidden));
+}
+
 async function wheelZooms(tab) {
     const distance = () => tab.evaluate(() => globalThis.game.stage.turn.distance), before = await distance();
     await tab.mouse.move(500, 300);
@@ -364,7 +386,7 @@ try {
     const tab = await browser.open("?still&free", { viewport: { width: 1000, height: 640 } }, listen);
     await frame(tab, 20);
     for (const test of [cutsSvg, cutsFold, cutsStyles, refusesOthers, scissorsSnip, grabHolds, knifeIsSlow, foldedPaper, knifeSounds, sliderTells,
-                        wheelZooms, linkPlays]) {
+                        sliderFolds, wheelZooms, linkPlays]) {
         await test(tab);
         console.log(`web: ${test.name}`);
     }

@@ -7,7 +7,7 @@ import { Hand } from "./hand.js";
 import { makeMaterials } from "./materials.js";
 import { Panel } from "./panel.js";
 import { readCuts } from "./paths.js";
-import { disc, lantern, snowflake } from "./patterns.js";
+import { disc, lantern, miura, snowflake } from "./patterns.js";
 import { Tape, pack, unpack } from "./share.js";
 import { SIZE, Simulation, TICK } from "./simulation.js";
 import { Skin } from "./skin.js";
@@ -92,6 +92,7 @@ class Game {
         this.stage.hang(this.choice.hangs);
         this.stage.scene.add(this.skin.mesh);
         this.panel.pressSheet(this.choice.sheet);
+        this.panel.showFold(Boolean(simulation.options.origami));
         this.behind = 0;
         this.seen = -1;
     }
@@ -173,6 +174,14 @@ class Game {
         this.restart({ sheet: "paper", hangs: "middle", folded: false },
             { mesh: disc(SIZE), def: { frameCount: 80, maxFrames: 100 } });
         this.cut(lantern(SIZE));
+    }
+
+    /** A sheet of card, which the slider folds. */
+    showMiura() {
+        this.restart({ sheet: "paper", tool: "knife", hangs: "middle", folded: false },
+            { origami: miura(SIZE), def: { material: this.materials.card, frameCount: 25, iterations: 4 } });
+        this.panel.pressTool("knife");
+        this.panel.say("Fold it with the slider, and cut it");
     }
 
     /** The first task, in quality that this device has time for. */
@@ -288,7 +297,7 @@ class Game {
         this.slowTicks = 0;
         this.choice.quality--;
         if (!this.undos.length) {
-            this.task ? this.startTask() : this.restart();
+            this.task ? this.startTask() : this.simulation.options.origami ? this.showMiura() : this.restart();
         }
     }
 

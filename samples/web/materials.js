@@ -19,6 +19,7 @@ export const makeMaterials = () => ({
         light: [1, 0.99, 0.95], shade: [0.16, 0.1, 0.07], through: 1.3,
         sound: { pitch: 3800, width: 0.7, volume: 0.5 },
     },
+    card: of(MaterialPreset.Card, { airDamping: 4, density: 60 }), // of the origami; light, so that it does not sag
     cloth: {
         material: of(MaterialPreset.Cotton, { airDamping: 0.8, flexDamping: 4e-3 }),
         drawn: 1.1e-3, roughness: 1, metalness: 0, rim: 0x8fa6b8, print: "cloth",

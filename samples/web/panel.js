@@ -55,10 +55,12 @@ export class Panel {
         this.slider = at("quality");
         this.slider.value = game.choice.quality;
         this.slider.addEventListener("input", () => game.restart({ quality: Number(this.slider.value) }));
+        this.fold = at("fold");
+        this.fold.querySelector("input").addEventListener("input", ({ target }) => { game.simulation.toFold = target.value / 100; });
         const act = (text, does) => button(text, () => { at("more").open = false; does(); });
         at("acts").append(
             act("Cut along the line", () => game.startTask()), act("Cut freely", () => game.playFreely()),
-            act("Snowflake", () => game.showSnowflake()), act("Lantern", () => game.showLantern()),
+            act("Snowflake", () => game.showSnowflake()), act("Lantern", () => game.showLantern()), act("Origami", () => game.showMiura()),
             act("Cut a file…", () => this.askFile()), act("Copy link", () => this.copyLink()),
             this.sound = button("Sound off", () => {
                 game.sound.muted = !game.sound.muted;
@@ -144,6 +146,12 @@ export class Panel {
         this.hint.classList.remove("gone");
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.hint.classList.add("gone"), 4000);
+    }
+
+    /** The slider of a sheet that folds. */
+    showFold(folds) {
+        this.fold.hidden = !folds;
+        this.fold.querySelector("input").value = 0;
     }
 
     /** What the slider changes. */

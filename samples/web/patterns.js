@@ -49,6 +49,27 @@ export function lantern(size) {
     return paths;
 }
 
+const STRAIGHT = 1 / Math.sqrt(5); // cosine of the angle between zigzags and straight lines
+
+/** Folds of a Miura sheet, zigzags and straight lines. ways: the tangent of half the angle of each, relative to that of a
+ *  zigzag; below 0: a mountain. */
+export function miura(size, cells = 5) {
+    const folds = [], ways = [], side = size / cells;
+    const zigzag = (i, j) => side * (i + (j % 2 ? 0.25 : -0.25));
+    const add = (from, to, way) => {
+        folds.push({ from, to, stiffness: 0.05 });
+        ways.push(way);
+    };
+    for (let i = 1; i < cells; i++) {
+        for (let j = 0; j < cells; j++) {
+            add([zigzag(i, j), side * j], [zigzag(i, j + 1), side * (j + 1)], i % 2 ? -1 : 1);
+            add([j ? zigzag(j, i) : 0, side * i], [j < cells - 1 ? zigzag(j + 1, i) : size, side * i],
+                (i + j) % 2 ? STRAIGHT : -STRAIGHT);
+        }
+    }
+    return { folds, ways };
+}
+
 /** A round sheet: a mesh for a sheet def. */
 export function disc(size, rings = 26, sectors = 120) {
     const restPositions = [size / 2, size / 2], indices = [];

@@ -1,6 +1,6 @@
 // The world: one sheet that hangs from a rod above a table, what holds it, and time. No drawing here.
 
-import { ObstacleType, Profile, ResultCode, Skinning, Stage, World, fitBudget, getQuality } from "kiri";
+import { ObstacleType, Profile, ResultCode, Skinning, Stage, World, fillRectangle, fitBudget, getQuality } from "kiri";
 
 export const SIZE = 0.3; // m, of the sheet's sides
 export const TICK = 1 / 60; // s
@@ -13,6 +13,8 @@ const COLUMNS = 64;
 const BREEZE = [0.22, 0, -0.25]; // m/s: flat light looks like no sheet
 const GUST = [0.3, 0, -1]; // m/s, for a moment after a cut: it opens lips and flaps, and lets pieces lean on the wall
 const GUST_TICKS = 20;
+const FOLDED = 1.1; // rad, of driven folds
+const FOLDING = 1 / 150; // part of the way in a tick
 const CRUMB = 2e-6; // m^2
 const CUTS = 3000, MOTION = 5000; // us of a tick that the budget allows
 const MEASURED = 30; // ticks between two budgets
@@ -28,7 +30,7 @@ export function borderOf(u, v, round) {
 
 export class Simulation {
     /** options: material (of materials.js), quality (0, 1, 2), hangs ("rod", "tip", "middle"), def and mesh (where it is
-     *  no square). record: gets bytes of the recording. */
+     *  no square), origami (of patterns.js). record: gets bytes of the recording. */
     constructor(options, record) {
         this.options = options;
         this.quality = getQuality(options.quality);
@@ -40,15 +42,17 @@ export class Simulation {
         this.cost = { milliseconds: 0, vertices: 0, weights: 0 };
         this.world = new World({ gravity: [0, -9.81, 0], clock: () => performance.now() / 1000, record, budget: BUDGET });
         this.pieces = 1;
+        this.folded = this.toFold = 0; // part of the way from flat, and where the slider is
         this.slow = false;
     }
 
     /** A world without a sheet gets its own. One that is to be replayed gets it from the recording. */
     build() {
-        const { mesh } = this.options;
+        const { mesh, origami } = this.options;
         this.world.createObstacle({ type: ObstacleType.Plane, rotation: [1, 0, 0, 0, 0, -1, 0, 1, 0], friction: 0.8 });
         this.world.createObstacle({ type: ObstacleType.Plane, position: [0, 0, WALLS[this.options.hangs]], friction: 0.5 });
-        this.sheet = mesh ? this.world.createSheet({ ...this.def(), ...mesh })
+        this.sheet = origami ? this.world.createFoldedSheet({ ...this.def(), ...fillRectangle(SIZE, SIZE, COLUMNS, COLUMNS) }, origami.folds)
+            : mesh ? this.world.createSheet({ ...this.def(), ...mesh })
             : this.world.createRectangle(SIZE, SIZE, COLUMNS, COLUMNS, this.def());
         this.hold();
         this.blow(BREEZE);
@@ -76,7 +80,10 @@ export class Simulation {
 
     hold() {
         const { hangs } = this.options, middle = SIZE / 2, arm = hangs === "tip" ? 0.003 : 0.008;
-        if (hangs === "middle") {
+        if (this.options.origami) { // a facet
+            const { frame } = this.sheet.getPoint([middle, middle]), { position, rotation } = frame.getState();
+            frame.hold(position, rotation);
+        } else if (hangs === "middle") {
             this.sheet.clampLine([middle - arm, middle], [middle + arm, middle]);
             this.sheet.clampLine([middle, middle - arm], [middle, middle + arm]);
         } else if (hangs === "tip") {
@@ -95,11 +102,22 @@ export class Simulation {
         if (this.gust > 0 && --this.gust === 0) {
             this.blow(BREEZE);
         }
+        this.fold();
         const { substeps } = this.quality;
         const result = this.world.tick(this.slow ? TICK / 2 * SLOW : TICK, this.slow ? Math.max(1, substeps >> 1) : substeps);
         this.pending = result === ResultCode.Pending; // work on a cut is left for the next tick
         this.look();
         this.measure();
+    }
+
+    /** Drives the folds by a small step towards the slider. */
+    fold() {
+        const step = Math.max(-FOLDING, Math.min(FOLDING, this.toFold - this.folded));
+        if (step !== 0) {
+            this.folded += step;
+            const { folds, ways } = this.options.origami, half = Math.tan(0.5 * FOLDED * this.folded);
+            ways.forEach((way, i) => this.sheet.setFold(i, folds[i].stiffness, 2 * Math.atan(way * half)));
+        }
     }
 
     /** Ticks keep to a budget of items, which comes from what cuts and motion took so far on this device. */
