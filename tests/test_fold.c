@@ -383,6 +383,9 @@ static double FoldMiura(int columns, int rows, double acute, int32_t frames, int
     def.frameCount = frames;
     def.iterations = 4;
     kiriSheet sheet = AddFolded(&host, &def, 0.1f, 0.1f, 10, 10, m.folds, m.count);
+    kiriFrameState state = World_FrameState(host.world, Host_FrameOf(&host, sheet, 0));
+    const float u = state.restPoint[0], v = state.restPoint[1] + 1e-4f, ends[4] = { u - 5e-3f, v, u + 5e-3f, v };
+    World_Clamp(host.world, sheet, ends, ends + 2); /* holds a facet, and no fold beside it */
     for (int degrees = 0; degrees <= 80; ++degrees) {
         double zig = degrees * Degree, line = 2.0 * atan(cos(acute) * tan(0.5 * zig));
         for (int i = 0; i < m.count; ++i) {

@@ -49,7 +49,6 @@ static bool AddSevered(const SeverWork* work, int32_t link, double part, double 
 /* Adds a stretch of the line around t to the share of frame `to`. */
 static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* own, double t, double length)
 {
-    double low = own->ends[0] + 0.5 * length, high = own->ends[1] - 0.5 * length;
     const kiriLineShare none = {
         to, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { own->ends[0], own->ends[1] }, { own->open[0], own->open[1] }
     };
@@ -57,8 +56,8 @@ static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* ow
     if (share == NULL) {
         return false;
     }
-    t = kiriMin(high, t);
-    t = kiriMax(low, t);
+    t = kiriMin(own->ends[1] - 0.5 * length, t);
+    t = kiriMax(own->ends[0] + 0.5 * length, t);
     share->length += length;
     share->first += length * t;
     share->second += length * (t * t + length * length / 12.0);
@@ -75,15 +74,15 @@ static bool SpreadShare(const SeverWork* work, kiriLineShare own)
     double sum = 0.0, t, width;
     KIRI_TIMES(k, work->linkCount) {
         const kiriLink* link = &work->links[k];
-        bool isOwn = link->i == own.frame || link->j == own.frame;
-        sum += isOwn && IsAcross(work, link, &t, &width) ? width : 0.0;
+        bool isOwn = link->i == own.frame || link->j == own.frame; /* a fold beside a clamp turns freely */
+        sum += isOwn && link->fold == 0 && IsAcross(work, link, &t, &width) ? width : 0.0;
     }
     double spread = kiriMin(own.alone, sum);
     KIRI_TIMES_WHILE(spread > 0.0, k, work->linkCount) {
         const kiriLink* link = &work->links[k];
         bool isOwn = link->i == own.frame || link->j == own.frame;
-        if (isOwn && IsAcross(work, link, &t, &width)) {
-            int32_t other = link->i == own.frame ? link->j : link->i;
+        if (isOwn && link->fold == 0 && IsAcross(work, link, &t, &width)) {
+            int32_t other = link->i + link->j - own.frame;
             if (!AddAcross(work, other, &own, t, spread * width / sum) || !AddSevered(work, k, spread / sum, 0.0)) {
                 return false;
             }
