@@ -250,9 +250,9 @@ TEST(ClampedStripsAreAsStiffAsTheyShould)
 
 typedef enum Hold { HANGS, PULLED } Hold;
 
-/* Returns the seen elongation of a soft strip that hangs by its upper end, or is pulled at both ends by 2 %, over
+/* Returns the seen elongation of a soft smooth strip that hangs by its upper end, or is pulled at both ends by 2 %, over
    the elongation of theory. The ends are in clamps or hinges; sites are off rows by up to `jitter` of a spacing. */
-static double ElongationOfStrip(int32_t skinning, Hold hold, bool isHinged, int32_t count, double jitter, uint32_t seed)
+static double ElongationOfStrip(Hold hold, bool isHinged, int32_t count, double jitter, uint32_t seed)
 {
     enum { COLUMNS = 40, ROWS = 10 };
     const float length = 0.2f, width = 0.05f, strain = 0.02f;
@@ -264,7 +264,7 @@ static double ElongationOfStrip(int32_t skinning, Hold hold, bool isHinged, int3
     kiriSheetDef def = PaperDef(80, 1.0f);
     double E = hold == HANGS ? 1000.0 * 9.81 * (double)length / (2.0 * (double)strain) : 1e6;
     def.material = (kiriMaterial){ (float)E, 0.0f, 1e-3f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
-    def.skinning = skinning;
+    def.skinning = KIRI_SKINNING_SMOOTH;
     def.frameCount = def.maxFrames = count;
     def.framePoints = points;
     for (int32_t i = 0; i < count; ++i) {
@@ -293,13 +293,13 @@ static double ElongationOfStrip(int32_t skinning, Hold hold, bool isHinged, int3
 TEST(SoftStripsAreSeenAsLongAsTheyShould)
 {
     static const int32_t counts[3] = { 3, 5, 9 };
-    for (uint32_t k = 0; k < 24; ++k) {
+    for (uint32_t k = 0; k < 12; ++k) {
         Hold hold = k % 2 == 0 ? HANGS : PULLED;
-        int32_t count = counts[k % 12 / 4], skinning = k < 12 ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH;
-        double even = ElongationOfStrip(skinning, hold, k / 2 % 2 == 1, count, 0.0, 0);
-        double moved = ElongationOfStrip(skinning, hold, k / 2 % 2 == 1, count, 0.1, k % 12 + 1);
-        print_message("%d frames, skinning %d, %s, %s: %.4f, %.4f\n", count, skinning,
-                      hold == HANGS ? "hangs" : "pulled", k / 2 % 2 == 1 ? "hinged" : "clamped", even, moved);
+        int32_t count = counts[k / 4];
+        double even = ElongationOfStrip(hold, k / 2 % 2 == 1, count, 0.0, 0);
+        double moved = ElongationOfStrip(hold, k / 2 % 2 == 1, count, 0.1, k + 1);
+        print_message("%d frames, %s, %s: %.4f, %.4f\n", count, hold == HANGS ? "hangs" : "pulled",
+                      k / 2 % 2 == 1 ? "hinged" : "clamped", even, moved);
         assert_true(fabs(even - 1.0) < 0.005 && fabs(moved - 1.0) < (hold == HANGS ? 0.03 : 0.005));
     }
 }

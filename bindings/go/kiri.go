@@ -276,9 +276,9 @@ func (v Model) String() string { return namesModel[v] }
 type Skinning int32
 
 const (
-	// each frame carries a flat patch that stretches; the weights blend them (equation 1)
+	// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
 	SkinningLinear Skinning = 0
-	// patches also bend as their neighbours lie: no bumps at the frames
+	// patches bend and stretch as their neighbours lie: no bumps at the frames
 	SkinningSmooth Skinning = 1
 )
 

@@ -323,8 +323,8 @@ enum kiriModel {
 
 /* The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
 enum kiriSkinning {
-    KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch that stretches; the weights blend them (equation 1) */
-    KIRI_SKINNING_SMOOTH = 1  /* patches also bend as their neighbours lie: no bumps at the frames */
+    KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
+    KIRI_SKINNING_SMOOTH = 1  /* patches bend and stretch as their neighbours lie: no bumps at the frames */
 };
 
 /* Integration in time, with one linear system an iteration. Steps with contacts or new pins take backward Euler. */

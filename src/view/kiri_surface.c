@@ -501,12 +501,12 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
                         surface->patches.count == frameCount;
     const kiriIndices* some = surface->isPartly ? moved : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
-    if (isBent || pulls->areRigid) {
+    if (isBent) {
         kiriCarriers_Fit(surface->carriers.data, surface->bends.data, frames, frameCount, pulls, some,
                          surface->isPartly ? movedLinks : NULL);
     }
-    surface->isWritten &=
-        !kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
+    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
+    surface->isWritten = surface->isWritten && !isOther;
 }
 
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end)

@@ -470,9 +470,9 @@ namespace Kiri
     /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).</summary>
     public enum Skinning
     {
-        /// <summary>each frame carries a flat patch that stretches; the weights blend them (equation 1)</summary>
+        /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
         Linear = 0,
-        /// <summary>patches also bend as their neighbours lie: no bumps at the frames</summary>
+        /// <summary>patches bend and stretch as their neighbours lie: no bumps at the frames</summary>
         Smooth = 1,
     }
 

@@ -129,9 +129,9 @@ pub const KIRI_MODEL_AFFINE: i32 = 1;
 /// affine frames, strains at integration points, as in the paper. Thin sheets hardly bend
 pub const KIRI_MODEL_POINTS: i32 = 2;
 
-/// each frame carries a flat patch that stretches; the weights blend them (equation 1)
+/// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
 pub const KIRI_SKINNING_LINEAR: i32 = 0;
-/// patches also bend as their neighbours lie: no bumps at the frames
+/// patches bend and stretch as their neighbours lie: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
 /// TR-BDF2, of second order: keeps the energy of motion

@@ -497,9 +497,9 @@ impl Model {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Skinning {
-    /// each frame carries a flat patch that stretches; the weights blend them (equation 1)
+    /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
     Linear = 0,
-    /// patches also bend as their neighbours lie: no bumps at the frames
+    /// patches bend and stretch as their neighbours lie: no bumps at the frames
     Smooth = 1,
 }
 
