@@ -104,6 +104,7 @@ typedef struct Given {
     CHANGES(kiriCut_End, world, g->cut)                                                                                \
     CHANGES(kiriSheet_Slice, world, g->sheet, g->quad, g->id)                                                          \
     CHANGES(kiriSheet_SetTearing, world, g->sheet, g->tearing)                                                         \
+    CHANGES(kiriSheet_SetTearLine, world, g->sheet, g->points, 200, g->size)                                           \
     READS(kiriSheet_GetTearing, world, g->sheet, g->out)                                                               \
     CHANGES(kiriBeginBlade, world, g->sheet, g->id)                                                                    \
     CHANGES(kiriBlade_MoveEdge, world, g->blade, g->vector, g->spin)                                                   \

@@ -259,6 +259,7 @@ RETURN(ApplyLineLoad, kiriSheet_ApplyLineLoad(world, act->sheet, OR_NULL(0, act-
 RETURN(ApplyPressure, kiriSheet_ApplyPressure(world, act->sheet, act->scalar))
 RETURN(ApplyImpulse, kiriSheet_ApplyImpulse(world, act->sheet, OR_NULL(0, act->rests[0]), OR_NULL(1, act->vectors[0])))
 RETURN(SetWind, kiriSheet_SetWind(world, act->sheet, OR_NULL(0, &act->def.wind)))
+RETURN(SetTearLine, kiriSheet_SetTearLine(world, act->sheet, OR_NULL(0, act->points), act->pointCount, act->scalar))
 RETURN(SetTearing, kiriSheet_SetTearing(world, act->sheet, OR_NULL(0, &act->def.tearing)))
 
 /* ---- Pins and contacts ---- */
@@ -398,6 +399,7 @@ const FuzzCall fuzzCalls[] = {
     { "ApplyImpulse", CallApplyImpulse, "srV", 0, NULL },
     { "SetWind", CallSetWind, "sW", STIRS, NULL },
     { "SetTearing", CallSetTearing, "sA", STIRS, NULL },
+    { "SetTearLine", CallSetTearLine, "sPx", STIRS, NULL },
     { "CreatePin", CallCreatePin, "sI", ADDS | STIRS, Pins },
     { "ClampLine", CallClampLine, "srr", ADDS, Pins },
     { "HingeLine", CallHingeLine, "srr", ADDS, Pins },

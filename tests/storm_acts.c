@@ -413,6 +413,8 @@ static void Rip(Storm* storm)
     tearing.grainRatio = Storm_Between(storm, 1.0f, 4.0f);
     tearing.maxTips = (int32_t)Storm_Random(storm, 4);
     Storm_Note(storm, kiriSheet_SetTearing(storm->world, sheet, &tearing));
+    const float line[] = { tearing.grain[0], tearing.grain[1], tearing.grain[1], tearing.grain[0] };
+    Storm_Note(storm, kiriSheet_SetTearLine(storm->world, sheet, line, 2, Storm_Between(storm, 0.0f, 2.0f)));
 }
 
 static void Turn(Storm* storm)

@@ -651,6 +651,7 @@ TEST(EachNumber)
         { "kiriWorld_Tick", offsetof(Given, dt), { 0.9e-6f, 10.001f } },
         { "kiriSheet_SetFold", offsetof(Given, dt), { -3.2f, 3.2f } },
         { "kiriSheet_SetFold", offsetof(Given, size), { -0.1f, -1e30f } },
+        { "kiriSheet_SetTearLine", offsetof(Given, size), { -0.1f, -1e30f } },
         { "kiriSheet_GetSolid", offsetof(Given, size), { -0.1f, -1e30f } },
         { "kiriSheet_Raycast", offsetof(Given, size), { -0.1f, -1e30f } },
         { "kiriWorld_Raycast", offsetof(Given, size), { -0.1f, -1e30f } },

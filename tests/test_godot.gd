@@ -293,6 +293,7 @@ func test_tears():
 	equal(sheet.set_tearing({"toughness": 1e4, "grain": Vector2(1, 0), "grain_ratio": 2.0}), kiri.OK)
 	near(sheet.get_tearing().toughness, 1e4)
 	equal(sheet.set_tearing({"toughness": -1.0}), kiri.ERROR_ARGUMENT)
+	equal(sheet.set_tear_line([Vector2(0.5, -0.1), Vector2(0.5, 0.6)], 0.2), kiri.OK)
 
 func test_seams():
 	var world = a_world()

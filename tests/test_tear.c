@@ -144,6 +144,27 @@ TEST(CentreCrackTearsAtItsLoad)
     }
 }
 
+/* The end of a cut tears once the cut has ended. */
+TEST(CutsTearAfterTheirEnd)
+{
+    static const float from[2] = { 0.025f, 0.1f }, to[2] = { 0.075f, 0.1f };
+    Strip s;
+    Strip_Start(&s, 32, 48);
+    kiriTearing tearing = TearingOf(100.0);
+    OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+    OK(kiriSheet_SetTearLine(s.host.world, s.sheet, from, 1, 1e6f)); /* the beginning never tears */
+    kiriCut cut = World_BeginCut(s.host.world, s.sheet, from);
+    OK(kiriCut_Extend(s.host.world, cut, to, 1));
+    for (int32_t t = 0; t < 200; ++t) {
+        Strip_Pull(&s, 2e-5);
+    }
+    assert_int_equal(s.told.began, 0);
+    OK(kiriCut_End(s.host.world, cut));
+    Strip_PullToTear(&s, 0.0);
+    assert_true(s.told.began == 1 && s.apart < 0.005);
+    Host_Stop(&s.host);
+}
+
 /* Pulls a strip with a cut from its left side, until the tear is beyond u. Writes the tip. */
 static void TearTo(Strip* s, double u, double tip[2])
 {
@@ -347,7 +368,7 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 /* A leg pulls with toughness h / 2. */
 TEST(TrouserPullsWithItsForce)
 {
-    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.0, 1.5, 2.5 };
+    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 2.5 };
     static const int32_t frames[] = { 16, 32, 64 };
     for (int e = 0; e < 3; ++e) {
         for (int k = 0; k < 3; ++k) {
@@ -374,6 +395,100 @@ TEST(TrouserPullsWithItsForce)
     }
 }
 
+/* ---- Tear lines -------------------------------------------------------------------------------------------------- */
+
+/* Three by two stamps with perforations between them. Springs hold one stamp, and pull a neighbor away by random points in
+   a random direction. All lips are on the perforations. */
+TEST(StampsPartAlongTheirPerforations)
+{
+    static const float lines[] = { -0.01f, 0.02f,  0.085f, 0.02f, 0.05f,  -0.01f,
+                                   0.05f,  0.05f, 0.025f, 0.05f, 0.025f, -0.01f };
+    enum { STAMPS = 50, HANDS = 3 };
+    int32_t parted = 0;
+    for (uint32_t seed = 0; seed < STAMPS; ++seed) {
+        START_HOST(host);
+        uint32_t random = seed * 2654435761u + 1u;
+        kiriSheetDef def = DefaultSheet();
+        kiriTearing tearing = TearingOf(1e4);
+        kiriPin pins[2][HANDS];
+        float at[2][HANDS][3];
+        World_StopGravity(host.world);
+        TakeMaterial(&def.material, 2e9, 0.3f);
+        def.gridResolution = 48;
+        def.frameCount = 24;
+        def.iterations = 4;
+        def.sleepSpeed = 0.0f;
+        kiriSheet sheet = World_AddRectangle(host.world, 0.075f, 0.04f, 45, 24, &def);
+        OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
+        for (int k = 0; k < 3; ++k) {
+            OK(kiriSheet_SetTearLine(host.world, sheet, &lines[4 * k], 2, 0.1f));
+        }
+        int column = (int)(Random(&random) % 3), row = (int)(Random(&random) % 2);
+        const int columns[2] = { column, column == 1 ? 2 * (int)(Random(&random) % 2) : 1 };
+        const double away[3] = { columns[1] - column + RandomBetween(&random, -0.5, 0.5),
+                                 RandomBetween(&random, -0.5, 0.5), RandomBetween(&random, -1.5, 1.5) };
+        double step = 0.1 * (double)Dt / sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]);
+        for (int k = 0; k < 2 * HANDS; ++k) {
+            float* p = at[k / HANDS][k % HANDS];
+            p[0] = (float)(0.025 * columns[k / HANDS] + RandomBetween(&random, 0.004, 0.021));
+            p[1] = (float)(0.02 * row + RandomBetween(&random, 0.004, 0.016));
+            p[2] = 0.0f;
+            kiriPinDef pin = Host_PinDef(p[0], p[1], p[0], p[1], 0.0f);
+            pin.stiffness = 300.0f;
+            OK(kiriCreatePin(host.world, sheet, &pin, &pins[k / HANDS][k % HANDS]));
+        }
+        for (int32_t t = 0; t < 150 && Host_Counts(&host, sheet).pieces == 1; ++t) {
+            for (int k = 0; k < HANDS; ++k) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    at[1][k][axis] += (float)(step * away[axis]);
+                }
+                OK(kiriPin_SetTarget(host.world, pins[1][k], at[1][k]));
+            }
+            assert_true(kiriWorld_Tick(host.world, Dt, 2) >= 0);
+        }
+        parted += Host_Counts(&host, sheet).pieces > 1;
+        kiriMesh mesh = Host_Mesh(&host, sheet);
+        for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+            for (int32_t k = i + 1; k < mesh.vertexCount; ++k) {
+                const float* p = &mesh.restPositions[2 * i];
+                if (memcmp(p, &mesh.restPositions[2 * k], 2 * sizeof(float)) == 0) {
+                    double off = fabs((double)p[1] - 0.02);
+                    off = fmin(off, fmin(fabs((double)p[0] - 0.025), fabs((double)p[0] - 0.05)));
+                    assert_true(off < 2e-4);
+                }
+            }
+        }
+    }
+    assert_int_equal(parted, STAMPS);
+}
+
+/* A tear stops at a ripstop, and crosses it at a force larger by about the root of its factor. */
+TEST(RipstopsStopTears)
+{
+    static const float line[] = { 0.05f, -0.01f, 0.05f, 0.21f };
+    for (int k = 0; k < 4; ++k) {
+        double forces[2], tip[2], factor = k < 2 ? 2.0 : 4.0;
+        for (int isTough = 0; isTough < 2; ++isTough) {
+            Strip s;
+            Strip_Start(&s, k % 2 == 0 ? 32 : 64, 64);
+            kiriTearing tearing = TearingOf(100.0);
+            OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
+            OK(kiriSheet_SetTearLine(s.host.world, s.sheet, line, 2, isTough != 0 ? (float)factor : 1.0f));
+            CutLine(&s.host, s.sheet, -0.01f, 0.1f, 0.045f, 0.1f);
+            forces[isTough] = 0.0;
+            tip[0] = 0.0;
+            for (int32_t t = 0; t < 3000 && tip[0] < 0.052; ++t) {
+                double force = Strip_Pull(&s, 1e-5);
+                forces[isTough] = force > forces[isTough] ? force : forces[isTough];
+                FarthestLip(&s.host, s.sheet, 1.0, 0.0, tip);
+            }
+            assert_true(tip[0] > 0.052);
+            Host_Stop(&s.host);
+        }
+        assert_true(fabs(forces[1] / forces[0] / sqrt(factor) - 1.0) < 0.1);
+    }
+}
+
 /* ---- State ------------------------------------------------------------------------------------------------------- */
 
 enum { BEFORE = TURNS + 60, AFTER = 60 };
@@ -381,7 +496,9 @@ enum { BEFORE = TURNS + 60, AFTER = 60 };
 /* Plays a trouser into the middle of its tear. */
 static void PlayTo(Trouser* t, kiriWorld* world, int32_t ticks)
 {
+    static const float line[] = { 0.05f, 0.03f, 0.09f, 0.03f, 0.09f, 0.07f };
     Trouser_Start(t, world, 2e7, 24, 1e4);
+    OK(kiriSheet_SetTearLine(world, t->sheet, line, 3, 0.9f));
     for (int32_t n = 0; n < ticks; ++n) {
         assert_true(Trouser_Tick(t, world, 0.02) >= 0);
     }

@@ -862,9 +862,9 @@ type PieceMesh struct {
 	CollisionPointCount int32
 }
 
-// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
-// across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
-// (tearing).
+// How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
+// goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its
+// tip.
 type Tearing struct {
 	// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
 	Toughness float32
@@ -1927,8 +1927,8 @@ var poolSheetEstimateError pool[struct {
 	relative C.double
 }]
 
-// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
-// to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
+// Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+// KIRI_MODEL_LINKS.
 func (s Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := s.World.check(); err != nil {
@@ -2409,8 +2409,10 @@ var poolSheetBeginCut pool[struct {
 	cut       C.kiriCut
 }]
 
-// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
-// tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+// closed until the next point. The id is stale after the tick in which the last point takes effect
+// (KIRI_EVENT_CUT_FINISHED).
 func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	var made0 Cut
 	if err := s.World.check(); err != nil {
@@ -2427,8 +2429,10 @@ func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
-// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
-// point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+// closed until the next point. The id is stale after the tick in which the last point takes effect
+// (KIRI_EVENT_CUT_FINISHED).
 func (c Cut) Extend(restPoints [][2]float32) error {
 	if err := c.World.check(); err != nil {
 		return err
@@ -2441,8 +2445,10 @@ func (c Cut) Extend(restPoints [][2]float32) error {
 	return nil
 }
 
-// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
-// point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+// closed until the next point. The id is stale after the tick in which the last point takes effect
+// (KIRI_EVENT_CUT_FINISHED).
 func (c Cut) End() error {
 	if err := c.World.check(); err != nil {
 		return err
@@ -2511,6 +2517,21 @@ func (s Sheet) Tearing() (Tearing, error) {
 	return answer.tearing, nil
 }
 
+// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
+// more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
+// tearing).
+func (s Sheet) SetTearLine(restPoints []float32, factor float32) error {
+	if err := s.World.check(); err != nil {
+		return err
+	}
+	result := C.kiriSheet_SetTearLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)), C.float(factor))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetTearLine", result, true); err != nil {
+		return err
+	}
+	return nil
+}
+
 var poolWorldBeginBlade pool[struct {
 	blade C.kiriBlade
 }]
@@ -2539,8 +2560,7 @@ var poolBladeMoveEdge pool[struct {
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
-// blade: its cuts stay, and end where the blade is.
+// each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 func (b Blade) MoveEdge(from [3]float32, to [3]float32) error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -2563,8 +2583,7 @@ var poolBladeMoveRay pool[struct {
 }]
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
-// blade: its cuts stay, and end where the blade is.
+// each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -2582,8 +2601,7 @@ func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) 
 }
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-// each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
-// blade: its cuts stay, and end where the blade is.
+// each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 func (b Blade) End() error {
 	if err := b.World.check(); err != nil {
 		return err
@@ -3452,6 +3470,7 @@ var functions = map[string]string{
 	"kiriSheet_Slice":                 "Sheet.Slice",
 	"kiriSheet_SetTearing":            "Sheet.SetTearing",
 	"kiriSheet_GetTearing":            "Sheet.Tearing",
+	"kiriSheet_SetTearLine":           "Sheet.SetTearLine",
 	"kiriBeginBlade":                  "World.BeginBlade",
 	"kiriBlade_MoveEdge":              "Blade.MoveEdge",
 	"kiriBlade_MoveRay":               "Blade.MoveRay",

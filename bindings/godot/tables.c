@@ -1630,6 +1630,24 @@ static const Parameter SHEET_GET_TEARING_PARAMETERS[] = {
     { "tearing", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &TEARING, NULL },
 };
 
+static const Argument SHEET_SET_TEAR_LINE_ARGUMENTS[] = {
+    { "rest_points", KIND_FLOATS, CLASS_NONE },
+    { "factor", KIND_REAL, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_SetTearLine(void* const* a)
+{
+    return kiriSheet_SetTearLine(a[0], *(kiriSheet*)a[1], a[2], *(int32_t*)a[3], *(float*)a[4]);
+}
+
+static const Parameter SHEET_SET_TEAR_LINE_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "rest_points", FORM_IN_ROWS, TYPE_FLOAT, KIND_FLOATS, 1, 3, 1, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_IN_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "factor", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument WORLD_BEGIN_BLADE_ARGUMENTS[] = {
     { "sheet", KIND_OBJECT, CLASS_SHEET },
 };
@@ -2350,6 +2368,7 @@ const Method METHODS[] = {
     { CLASS_SHEET, "slice", "kiriSheet_Slice", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_SLICE_ARGUMENTS, 4, SHEET_SLICE_PARAMETERS, Call_kiriSheet_Slice, NULL },
     { CLASS_SHEET, "set_tearing", "kiriSheet_SetTearing", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_TEARING_ARGUMENTS, 3, SHEET_SET_TEARING_PARAMETERS, Call_kiriSheet_SetTearing, NULL },
     { CLASS_SHEET, "get_tearing", "kiriSheet_GetTearing", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_TEARING_PARAMETERS, Call_kiriSheet_GetTearing, NULL },
+    { CLASS_SHEET, "set_tear_line", "kiriSheet_SetTearLine", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, SHEET_SET_TEAR_LINE_ARGUMENTS, 5, SHEET_SET_TEAR_LINE_PARAMETERS, Call_kiriSheet_SetTearLine, NULL },
     { CLASS_WORLD, "begin_blade", "kiriBeginBlade", RETURNS_RESULT, KIND_OBJECT, CLASS_BLADE, 1, 0, WORLD_BEGIN_BLADE_ARGUMENTS, 3, WORLD_BEGIN_BLADE_PARAMETERS, Call_kiriBeginBlade, NULL },
     { CLASS_BLADE, "move_edge", "kiriBlade_MoveEdge", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, BLADE_MOVE_EDGE_ARGUMENTS, 4, BLADE_MOVE_EDGE_PARAMETERS, Call_kiriBlade_MoveEdge, NULL },
     { CLASS_BLADE, "move_ray", "kiriBlade_MoveRay", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, BLADE_MOVE_RAY_ARGUMENTS, 5, BLADE_MOVE_RAY_PARAMETERS, Call_kiriBlade_MoveRay, NULL },

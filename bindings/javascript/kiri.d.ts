@@ -931,9 +931,8 @@ export class PieceMesh {
     collisionPointCount: number;
 }
 
-/** How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
- *  across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
- *  (tearing). */
+/** How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch, goes
+ *  on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip. */
 export class Tearing {
     /** J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
     toughness: number;
@@ -1449,8 +1448,8 @@ export class Sheet {
     getCounts(into?: Counts): Counts;
     /** Get the counts, at no cost; sum the totals over the frames. */
     getTotals(into?: Totals): Totals;
-    /** Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
-     *  frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy). */
+    /** Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+     *  KIRI_MODEL_LINKS. */
     estimateError(): number;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     isAwake(): boolean;
@@ -1488,8 +1487,10 @@ export class Sheet {
     getPieceFrames(piece: number): Frame[];
     /** Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number. */
     dropCrumbs(area: number): number;
-    /** Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
-     *  tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point. */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+     *  closed until the next point. The id is stale after the tick in which the last point takes effect
+     *  (KIRI_EVENT_CUT_FINISHED). */
     beginCut(restPoint: ArrayLike<number>): Cut;
     /** Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
      *  the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
@@ -1500,6 +1501,10 @@ export class Sheet {
     /** Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
      *  KIRI_MODEL_LINKS. */
     getTearing(into?: Tearing): Tearing;
+    /** Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0
+     *  or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it
+     *  (manual, tearing). */
+    setTearLine(restPoints: ArrayLike<number>, factor: number): ResultCode;
     /** Writes up to `capacity` ids of the sheet's frames; *count is how many there are. */
     getFrames(): Frame[];
     /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
@@ -1540,11 +1545,15 @@ export class Cut {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-     *  last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+     *  closed until the next point. The id is stale after the tick in which the last point takes effect
+     *  (KIRI_EVENT_CUT_FINISHED). */
     extend(restPoints: ArrayLike<number>): ResultCode;
-    /** Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-     *  last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+     *  closed until the next point. The id is stale after the tick in which the last point takes effect
+     *  (KIRI_EVENT_CUT_FINISHED). */
     end(): ResultCode;
 }
 
@@ -1652,16 +1661,16 @@ export class Blade {
     /** Two that are the same have the same id. */
     readonly id: number;
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-     *  End the blade: its cuts stay, and end where the blade is. */
+     *  casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts
+     *  stay. */
     moveEdge(from: ArrayLike<number>, to: ArrayLike<number>): ResultCode;
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-     *  End the blade: its cuts stay, and end where the blade is. */
+     *  casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts
+     *  stay. */
     moveRay(origin: ArrayLike<number>, direction: ArrayLike<number>, length: number): ResultCode;
     /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-     *  End the blade: its cuts stay, and end where the blade is. */
+     *  casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts
+     *  stay. */
     end(): ResultCode;
 }
 

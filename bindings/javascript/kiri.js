@@ -2377,6 +2377,20 @@ export class Sheet extends Thing {
         return readTearing(into, scratch, this.world);
     }
 
+    setTearLine(restPoints, factor) {
+        const $world = pointer(this.world);
+        try {
+            const $restPoints = putRows("Float32Array", restPoints, 1, "restPoints");
+            const $result = wasm.kiriSheet_SetTearLine($world, this.id, $restPoints, restPoints.length, factor);
+            if ($result < 0) {
+                fail(this.world, $result, "kiriSheet_SetTearLine");
+            }
+            return $result;
+        } finally {
+            release();
+        }
+    }
+
     getFrames() {
         const $world = pointer(this.world);
         try {

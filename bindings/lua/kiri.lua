@@ -194,6 +194,7 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
+kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, float factor);
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);
@@ -744,9 +745,8 @@ function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
 
---- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
---- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
---- the world and all its content; null is allowed.
+--- Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or
+--- null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
     C.kiriDefaultWorldDef(def)
@@ -1153,8 +1153,8 @@ function Sheet:getTotals(totals)
     return totals
 end
 
---- Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
---- to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
+--- Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+--- KIRI_MODEL_LINKS.
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
@@ -1399,8 +1399,10 @@ function Sheet:dropCrumbs(area)
     return count
 end
 
---- Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
---- tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 function Sheet:beginCut(restPoint)
     local world = self.world
     local result = C.kiriBeginCut(world.c, self.id, vector(1, restPoint, 2), out.Cut)
@@ -1408,8 +1410,10 @@ function Sheet:beginCut(restPoint)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
---- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 function Cut:extend(restPoints, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)
@@ -1418,8 +1422,10 @@ function Cut:extend(restPoints, count)
     return result == 1
 end
 
---- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
---- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
@@ -1453,6 +1459,17 @@ function Sheet:getTearing(tearing)
     return tearing
 end
 
+--- Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
+--- more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
+--- tearing).
+function Sheet:setTearLine(restPoints, factor, count)
+    local world = self.world
+    restPoints, count = rows_of(restPoints, count, "float", 1)
+    local result = C.kiriSheet_SetTearLine(world.c, self.id, restPoints, count, factor)
+    if result < 0 then fail(world, "kiriSheet_SetTearLine", result, true) end
+    return result == 1
+end
+
 --- A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
 --- cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0:
 --- all.
@@ -1464,8 +1481,7 @@ function World:beginBlade(sheet)
 end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 function Blade:moveEdge(from, to)
     local world = self.world
     local result = C.kiriBlade_MoveEdge(world.c, self.id, vector(1, from, 3), vector(2, to, 3))
@@ -1474,8 +1490,7 @@ function Blade:moveEdge(from, to)
 end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 function Blade:moveRay(origin, direction, length)
     local world = self.world
     local result = C.kiriBlade_MoveRay(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), length)
@@ -1484,8 +1499,7 @@ function Blade:moveRay(origin, direction, length)
 end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 function Blade:finish()
     local world = self.world
     local result = C.kiriBlade_End(world.c, self.id)

@@ -111,9 +111,8 @@ typedef struct kiriWorldDef {
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
 } kiriWorldDef;
 
-/* Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
-   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
-   the world and all its content; null is allowed. */
+/* Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or null.
+   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
@@ -538,8 +537,7 @@ typedef struct kiriTotals {
 KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
-/* Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames to
-   tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy). */
+/* Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
 /* Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all. */
@@ -651,12 +649,10 @@ KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, floa
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
 
-/* Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next tick
-   or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point. */
+/* Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take effect
+   with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until
+   the next point. The id is stale after the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED). */
 KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
-
-/* Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
-   point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
@@ -666,8 +662,8 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 
 /* ---- Tear ------------------------------------------------------------------------------------------------------- */
 
-/* How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on across
-   the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip (tearing). */
+/* How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch, goes on
+   across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip. */
 typedef struct kiriTearing {
     float toughness;  /* J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
     float grain[2];   /* direction in the rest plane along which it tears; 0, 0: none */
@@ -680,6 +676,11 @@ typedef struct kiriTearing {
 KIRI_API kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 
+/* Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or more:
+   below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual, tearing). */
+KIRI_API kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count,
+                                          float factor);
+
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 
 /* A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and cuts
@@ -687,8 +688,7 @@ KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet
 KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 
 /* Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
-   each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
-   blade: its cuts stay, and end where the blade is. */
+   each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay. */
 KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
                                       const float direction[3], float length);

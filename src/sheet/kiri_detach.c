@@ -361,9 +361,13 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     to->plastics.isKept = from->plastics.isKept;
     to->seen.bounds->patience = from->seen.bounds->patience;
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    bool ok = to->solver != NULL && kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
+    bool ok = to->solver != NULL && kiriArray_Resize(to->memory, &to->tearLines, from->tearLines.count) &&
+              kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
               kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, &frames, to) &&
               CopyPoints(detach, piece, to);
+    KIRI_EACH_INDEX_WHILE(ok, i, from->tearLines) {
+        to->tearLines.data[i] = from->tearLines.data[i];
+    }
     KIRI_EACH_INDEX_WHILE(ok, i, from->pins) {
         int32_t frame = kiriSubset_FrameOfPin(part, i);
         ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));

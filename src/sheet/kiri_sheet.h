@@ -458,7 +458,13 @@ typedef struct kiriUpdate {
 
 enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
-/* Where a tear can begin or go on: an end of a slit, or a notch. */
+/* A straight line, or a point, on which the toughness is multiplied. */
+typedef struct kiriTearLine {
+    kiriVec2 from, to; /* local */
+    double factor;
+} kiriTearLine;
+
+/* Where a tear can begin or go on: an end of a slit, a notch, or a perforation at a lip. */
 typedef struct kiriTearTip {
     kiriLatticePoint point;
     kiriVec2 along; /* unit: the way on */
@@ -523,6 +529,7 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */
 
     KIRI_ARRAY(kiriSewnLine) sewn; /* in this tick: where the skin is drawn as it is */
+    KIRI_ARRAY(kiriTearLine) tearLines;
     kiriTears tears;
     kiriTouches touches;
     kiriSheetRest rest;

@@ -298,6 +298,18 @@ static void MoveCounts(kiriArchive* archive, void* object)
     count[KIRI_OF_POINTS] = kiriArchive_Count(archive, sheet->points.count, 0, INT32_MAX);
 }
 
+KIRI_TABLE(TearLineTable, kiriTearLine, {
+    KIRI_REALS(from, factor),
+})
+
+static void HashTearLines(kiriArchive* archive, void* object)
+{
+    const kiriSheetData* sheet = object;
+    if (archive->mode == KIRI_ARCHIVE_HASH) {
+        kiriArchive_Objects(archive, TearLineTable, sheet->tearLines.data, sheet->tearLines.count);
+    }
+}
+
 /* A load finds the tips again. */
 KIRI_TABLE(TearsTable, kiriTears, {
     KIRI_DROPPED(areListed),
@@ -324,7 +336,9 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PART(rest, SheetRestTable),
     KIRI_PART(turns, TurnsTable),
     KIRI_PART(seen, SeenTable),
+    KIRI_CUSTOM(tearLines, HashTearLines),
     KIRI_UNHASHED,
+    KIRI_PARTS(tearLines, TearLineTable),
     KIRI_RUN(4, id),
     KIRI_PART(regions, kiriRegionsTable),
     KIRI_PART(probes, ProbesTable),
@@ -505,6 +519,9 @@ static bool AreCuts(const kiriSheetData* sheet)
     }
     KIRI_EACH_WHILE(areFine, const kiriQueuedPoint, point, sheet->queue) {
         areFine = !point->ends || point->cut->ended;
+    }
+    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
+        areFine &= line->factor >= 0.0;
     }
     return areFine;
 }

@@ -10,6 +10,8 @@
 #define PACE 0.5        /* spacings in a tick, at most */
 #define LEAST_PACE 0.05 /* spacings, where the pace is lower: each step shakes the sheet */
 #define LEAST_STEP 4.0  /* snap distances */
+#define ROUNDED 4.0      /* lattice steps: a tip this near to a lip is on it */
+#define LINE_REACH 2.0  /* snap distances: a tip this near to a tear line is on it */
 #define STRESS_SHARE 3.0 /* spacings: the stress ahead opens a crack of about this length */
 
 bool kiriTears_AreGrowing(const kiriSheetData* sheet)
@@ -38,12 +40,65 @@ double kiriTears_Spacing(const kiriSheetData* sheet, int32_t piece)
 
 static bool IsTipBefore(const void* context, int32_t a, int32_t b)
 {
-    const kiriTears* tears = context;
-    kiriLatticePoint p = tears->found.data[a].point, q = tears->found.data[b].point;
-    return p.x != q.x ? p.x < q.x : p.y < q.y;
+    const kiriTearTip *s = &((const kiriTears*)context)->found.data[a], *t = &((const kiriTears*)context)->found.data[b];
+    kiriLatticePoint p = s->point, q = t->point;
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : s->along.x != t->along.x ? s->along.x < t->along.x :
+                                                                                        s->along.y < t->along.y;
 }
 
-/* The ends of slits, and sharp notches. Their order does not depend on how the mesh came about. */
+static bool PushTip(kiriSheetData* sheet, kiriTearTip tip)
+{
+    KIRI_ASSERT_HAS(sheet->mesh.vertices, tip.vertex);
+    return kiriArray_Push(sheet->memory, &sheet->tears.order, sheet->tears.found.count) &&
+           kiriArray_Push(sheet->memory, &sheet->tears.found, tip);
+}
+
+static bool IsLip(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_Twin(mesh, h) == KIRI_NONE || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
+}
+
+/* Returns true if lips keep a snap distance from a point. */
+static bool IsClear(const kiriSheetData* sheet, kiriVec2 p)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriLatticePoint at = kiriMesh_Snap(mesh, p);
+    kiriNearby around = kiriNearby_Begin(&mesh->squares, at, at, sheet->settings.snap);
+    bool isClear = true;
+    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+        KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
+            kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
+            kiriVec2 b = kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h));
+            isClear &= !IsLip(mesh, h) || kiriVec2_DistanceToWay(p, a, b) > sheet->settings.snap * mesh->step;
+        }
+    }
+    return isClear;
+}
+
+static bool IsOn(const kiriSheetData* sheet, const kiriTearLine* line, kiriVec2 p)
+{
+    return kiriVec2_DistanceToWay(p, line->from, line->to) <= LINE_REACH * sheet->settings.snap * sheet->mesh.step;
+}
+
+/* Finds where a perforation meets a lip. Lips along the perforation, as of a tear that follows it, do not count. */
+static bool FindEnd(const kiriSheetData* sheet, const kiriTearLine* line, int32_t h, kiriTearTip* tip)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    KIRI_ASSERT(h >= 0 && h < 3 * mesh->triangles.count && line->factor < 1.0);
+    double snap = sheet->settings.snap * mesh->step, reach = LINE_REACH * snap;
+    kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)), b = kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h));
+    kiriVec2 from = line->from, e = kiriVec2_Normalize(kiriVec2_Sub(line->to, from));
+    double left = kiriVec2_Cross(e, kiriVec2_Sub(a, from)), right = kiriVec2_Cross(e, kiriVec2_Sub(b, from));
+    if ((left > reach) == (right > reach)) {
+        return false;
+    }
+    kiriVec2 at = kiriVec2_AddScaled(a, kiriClamp(left / (left - right), 0.0, 1.0), kiriVec2_Sub(b, a));
+    e = left > right ? e : kiriVec2_Scale(-1.0, e);
+    *tip = (kiriTearTip){ kiriMesh_Snap(mesh, at), e, kiriMesh_Tail(mesh, h) };
+    return IsOn(sheet, line, at) && IsClear(sheet, kiriVec2_AddScaled(at, LEAST_STEP * snap, tip->along));
+}
+
+/* The ends of slits, sharp notches, and perforations at lips. Their order does not depend on how the mesh came about. */
 bool kiriTears_List(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
@@ -54,10 +109,16 @@ bool kiriTears_List(kiriSheetData* sheet)
     tears->found.count = tears->order.count = 0;
     KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriTearTip tip = { kiriMesh_At(mesh, v), { 0.0, 0.0 }, v };
-        if (kiriSlits_WayOn(mesh, v, &tip.along) &&
-            !(kiriArray_Push(sheet->memory, &tears->order, tears->found.count) &&
-              kiriArray_Push(sheet->memory, &tears->found, tip))) {
+        if (kiriSlits_WayOn(mesh, v, &tip.along) && !PushTip(sheet, tip)) {
             return false;
+        }
+    }
+    KIRI_TIMES_WHILE(sheet->tearLines.count > 0, h, 3 * mesh->triangles.count) {
+        KIRI_EACH_WHILE(IsLip(mesh, h), const kiriTearLine, line, sheet->tearLines) {
+            kiriTearTip tip;
+            if (line->factor < 1.0 && FindEnd(sheet, line, h, &tip) && !PushTip(sheet, tip)) {
+                return false;
+            }
         }
     }
     kiriSort(tears->order.data, tears->order.count, IsTipBefore, tears);
@@ -232,7 +293,7 @@ static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, cons
     return sum - 0.5 * stored * kiriVec2_Dot(ring->along, slope);
 }
 
-/* Returns the energy that the tear takes per length, N. */
+/* Returns the energy that a tear takes per length, N. */
 static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
 {
     const kiriTearing* tearing = &sheet->settings.tearing;
@@ -273,6 +334,12 @@ static kiriVec2 TurnedWay(kiriVec2 e, double half)
     return kiriVec2_Make(c * e.x - s * e.y, s * e.x + c * e.y);
 }
 
+/* Returns the stress across a way, 0 or more. */
+static double PullAcross(const kiriTensor* stress, kiriVec2 way)
+{
+    return kiriMax(way.y * way.y * stress->uu - 2.0 * way.x * way.y * stress->uv + way.x * way.x * stress->vv, 0.0);
+}
+
 /* Finds the direction with the largest squared stress across it, over the energy that it takes. opens: energy that the mean
    stress can set free, as a share of the whole. Where it is small, as in a leg that is torn off by bending, the tear
    goes straight on. */
@@ -282,8 +349,7 @@ static kiriVec2 AimTear(const kiriSheetData* sheet, kiriVec2 e, const kiriTensor
     double most = 0.0, best = 0.0;
     for (int m = -WAYS; m <= WAYS; ++m) {
         kiriVec2 way = TurnedWay(e, limit * m / WAYS);
-        double across = way.y * way.y * stress->uu - 2.0 * way.x * way.y * stress->uv + way.x * way.x * stress->vv;
-        double value = across > 0.0 ? across * across / TakenAlong(sheet, way) : 0.0;
+        double across = PullAcross(stress, way), value = across * across / TakenAlong(sheet, way);
         best = value > most ? limit * m / WAYS : best;
         most = kiriMax(value, most);
     }
@@ -292,21 +358,22 @@ static kiriVec2 AimTear(const kiriSheetData* sheet, kiriVec2 e, const kiriTensor
 
 /* ---- The way on -------------------------------------------------------------------------------------------------- */
 
-/* Returns the part of the way from a tip at which a half-edge crosses it, above 0; 1: it does not. */
-static double CrossedAt(const kiriMeshData* mesh, int32_t h, kiriVec2 from, kiriVec2 way)
+/* Returns the part of the way from a tip at which a line crosses it, above 0; 1: it does not. */
+static double CrossedAt(const kiriMeshData* mesh, kiriVec2 a, kiriVec2 b, kiriVec2 from, kiriVec2 way)
 {
-    kiriVec2 a = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)), from);
-    kiriVec2 b = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), from);
+    a = kiriVec2_Sub(a, from);
+    b = kiriVec2_Sub(b, from);
     double left = kiriVec2_Cross(way, a), right = kiriVec2_Cross(way, b);
     if (left == right || left * right > 0.0) {
         return 1.0;
     }
     kiriVec2 at = kiriVec2_AddScaled(a, left / (left - right), kiriVec2_Sub(b, a));
-    double part = kiriVec2_Dot(at, way) / kiriVec2_Dot(way, way);
-    return part > 0.0 ? part : 1.0;
+    KIRI_ASSERT(way.x != 0.0 || way.y != 0.0);
+    double square = kiriVec2_Dot(way, way), part = kiriVec2_Dot(at, way) / square;
+    return part > ROUNDED * mesh->step / sqrt(square) ? part : 1.0;
 }
 
-/* Returns the part of the way from a tip that is free of lips and outline; 1: all. */
+/* Returns the part of the way from a tip that is free of lips, outline, and tear lines where the tip is not; 1: all. */
 static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriVec2 way)
 {
     const kiriMeshData* mesh = &sheet->mesh;
@@ -316,12 +383,14 @@ static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriV
     kiriNearby around = kiriNearby_Begin(&mesh->squares, tip->point, kiriMesh_Snap(mesh, kiriVec2_Add(from, way)), 0.0);
     for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
-            bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
-            bool isLip = isOutline || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
-            if (isLip && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
-                part = kiriMin(CrossedAt(mesh, h, from, way), part);
+            if (IsLip(mesh, h) && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
+                kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
+                part = kiriMin(CrossedAt(mesh, a, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), from, way), part);
             }
         }
+    }
+    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
+        part = IsOn(sheet, line, from) ? part : kiriMin(CrossedAt(mesh, line->from, line->to, from, way), part);
     }
     return part;
 }
@@ -345,29 +414,75 @@ static double ReleaseAt(const kiriSheetData* sheet, const kiriTearTip* tip, kiri
     return sum;
 }
 
+/* A way on, with the energy that it sets free and the energy that it takes, N. */
+typedef struct Way {
+    kiriVec2 along;
+    double free, taken, most; /* N, N, m */
+} Way;
+
+/* Returns the energy that the mean stress across a crack sets free, N. */
+static double OpenedBy(double stress, double spacing, const kiriMaterial* material)
+{
+    double stiffness = material->youngsModulus * (double)material->thickness;
+    KIRI_ASSERT(stress >= 0.0 && spacing > 0.0);
+    return STRESS_SHARE * spacing * stiffness * stress * stress;
+}
+
+/* Multiplies the toughness where tear lines pass the tip, and chooses a perforation if its surplus is larger. A tear that
+   turns by an angle c sets free cos(c/2)^4 of the energy that it sets free straight on. */
+static void FollowLines(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 straight, double release,
+                        const kiriTensor* stress, double spacing, Way* best)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    KIRI_ASSERT(spacing > 0.0 && best->taken >= 0.0 && kiriVec2_Dot(straight, straight) > 0.5);
+    double tough = 1.0, least = LINE_REACH * sheet->settings.snap * sheet->mesh.step;
+    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
+        if (IsOn(sheet, line, at)) { /* stress along a line opens nothing */
+            tough = kiriMax(line->factor, tough);
+            best->free = kiriMax(OpenedBy(PullAcross(stress, straight), spacing, material), release);
+        }
+    }
+    best->taken *= tough;
+    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
+        KIRI_TIMES_WHILE(line->factor < 1.0 && IsOn(sheet, line, at), end, 2) {
+            kiriVec2 off = kiriVec2_Sub(end == 0 ? line->from : line->to, at);
+            Way way = { kiriVec2_Normalize(off), 0.0, 0.0, kiriVec2_Length(off) };
+            double share = 0.5 * (1.0 + kiriVec2_Dot(way.along, straight));
+            kiriVec2 e = way.along;
+            double pull = PullAcross(stress, e);
+            double shear = e.x * e.y * (stress->vv - stress->uu) + (e.x * e.x - e.y * e.y) * stress->uv;
+            double traction = sqrt(pull * pull + shear * shear);
+            way.free = share * share * kiriMax(release, OpenedBy(traction, spacing, material));
+            way.taken = line->factor * tough * TakenAlong(sheet, way.along);
+            *best = way.most > least && way.free * best->taken > best->free * way.taken ? way : *best;
+        }
+    }
+}
+
 kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, double most, kiriVec2* along)
 {
-    double stiffness = sheet->settings.material.youngsModulus * (double)sheet->settings.material.thickness;
     int32_t piece = kiriPiece_OfVertex(sheet, tip->vertex);
     kiriVec2 at = kiriMesh_Local(&sheet->mesh, tip->point);
-    double spacing = kiriTears_Spacing(sheet, piece), taken = TakenAlong(sheet, tip->along);
+    double spacing = kiriTears_Spacing(sheet, piece);
     KIRI_ASSERT(most > 0.0 && spacing > 0.0);
     kiriTensor stress = StressAhead(sheet, at, tip->along, piece, REACH * spacing);
     double half = 0.5 * (stress.uu - stress.vv), root = sqrt(half * half + stress.uv * stress.uv);
     double largest = kiriMax(0.5 * (stress.uu + stress.vv) + root, 0.0);
     /* The measure fails where commits left strains between frames that are not at rest: then the stress bounds it. */
-    double opens = STRESS_SHARE * spacing * stiffness * largest * largest;
-    double release = kiriMax(ReleaseAt(sheet, tip, at, spacing), opens);
+    double opens = OpenedBy(largest, spacing, &sheet->settings.material), release = ReleaseAt(sheet, tip, at, spacing);
+    Way way = { { 0.0, 0.0 }, kiriMax(release, opens), TakenAlong(sheet, tip->along), most };
+    FollowLines(sheet, at, tip->along, release, &stress, spacing, &way);
     *along = tip->along;
-    if (!(release > taken)) {
+    if (!(way.free > way.taken)) {
         return at;
     }
-    double step = kiriMin(spacing * (LEAST_PACE + PACE * (1.0 - taken / release)), most);
+    double step = kiriMin(kiriMin(spacing * (LEAST_PACE + PACE * (1.0 - way.taken / way.free)), way.most), most);
     /* Legs that are taut pull along the sheet: their stress grows with the square of the release. */
-    double turns = 2.0 * opens * taken / (release * release);
-    *along = AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, turns);
-    kiriVec2 way = kiriVec2_Scale(step, *along);
-    double part = FreePart(sheet, tip, way), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
+    double turns = 2.0 * opens * way.taken / (way.free * way.free);
+    bool isFree = way.along.x == 0.0 && way.along.y == 0.0;
+    *along = isFree ? AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, turns) : way.along;
+    kiriVec2 to = kiriVec2_Scale(step, *along);
+    double part = FreePart(sheet, tip, to), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
     KIRI_ASSERT(part > 0.0 && part <= 1.0);
-    return part < 1.0 || step >= least ? kiriVec2_AddScaled(at, part, way) : at;
+    return part < 1.0 || step >= least ? kiriVec2_AddScaled(at, part, to) : at;
 }

@@ -9,7 +9,7 @@ KIRI_C_BEGIN
 /* s: strain offsets fade within this while a sheet tears. Those of moved sites hide the force on the tear. */
 #define KIRI_TEAR_FADE 0.01
 
-enum { KIRI_TEAR_ITERATIONS = 12 }; /* of a sheet that tears, at least */
+enum { KIRI_TEAR_ITERATIONS = 16 }; /* of a sheet that tears, at least */
 
 /* Returns true if tears may grow in the sheet. */
 static inline bool kiriTears_MayGrow(const kiriSheetData* sheet)

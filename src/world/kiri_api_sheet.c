@@ -793,3 +793,27 @@ kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTea
     *tearing = found->settings.tearing;
     return KIRI_OK;
 }
+
+kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count,
+                                 float factor)
+{
+    KIRI_CHANGES(Sheet_SetTearLine, &sheet, restPoints, &count, &factor);
+    kiriSheetData* data = call->sheet;
+    KIRI_REQUIRE(kiriArray_ReserveMore(data->memory, &data->tearLines, count), KIRI_ERROR_MEMORY, NULL);
+    KIRI_FROM_TO(k, kiriMin(1, count - 1), count) {
+        const float* from = &restPoints[2 * (int64_t)kiriMax(k - 1, 0)];
+        kiriVec2 to = kiriSheet_ToLocal(data, &restPoints[2 * (int64_t)k]);
+        kiriTearLine line = { kiriSheet_ToLocal(data, from), to, factor };
+        if (kiriCut_Clip(&data->mesh, &line.from, &line.to)) {
+            int32_t at = 0;
+            while (at < data->tearLines.count && memcmp(&data->tearLines.data[at], &line, 2 * sizeof(kiriVec2)) != 0) {
+                ++at;
+            }
+            data->tearLines.count = kiriMax(data->tearLines.count, at + 1);
+            data->tearLines.data[at] = line;
+        }
+    }
+    data->tears.areListed = false;
+    kiriSheet_WakeAll(data);
+    KIRI_RETURN(KIRI_OK);
+}

@@ -69,7 +69,8 @@ KIRI_C_BEGIN
     X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)                                                                    \
     X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)                                                                          \
     X3(Sheet_AddFold, SHEET, FOLD, NEW_COUNT)                                                                          \
-    X2(Sheet_SetTearing, SHEET, TEARING)
+    X2(Sheet_SetTearing, SHEET, TEARING)                                                                               \
+    X4(Sheet_SetTearLine, SHEET, POINTS, COUNT, SIZE)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,

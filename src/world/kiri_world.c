@@ -201,13 +201,16 @@ static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt, kiri
     for (int32_t n = 0; result == KIRI_OK && n < count && left > 0; ++n) {
         kiriTearTip tip = tears->found.data[tears->order.data[(first + n) % count]];
         kiriCutData* cut = NULL;
+        bool isLed = false; /* the host goes on with the cut */
         KIRI_EACH_OF(kiriCutData, each, sheet->cuts) {
-            bool isThere = each->tip.blade.at.x == tip.point.x && each->tip.blade.at.y == tip.point.y;
-            cut = isThere && kiriCut_IsTear(each) && !each->ended ? each : cut;
+            if (!each->ended && kiriLattice_IsSame(each->tip.blade.at, tip.point)) {
+                isLed |= !kiriCut_IsTear(each);
+                cut = kiriCut_IsTear(each) ? each : cut;
+            }
         }
         int32_t piece = kiriPiece_OfVertex(sheet, tip.vertex);
         bool isDue = cut != NULL ? cut->waiting == 0 : n < looks;
-        if (!isDue || !kiriPiece_IsAwake(&sheet->layout.pieces.data[piece])) {
+        if (isLed || !isDue || !kiriPiece_IsAwake(&sheet->layout.pieces.data[piece])) {
             continue;
         }
         tip.along = cut != NULL ? cut->tears : tip.along;

@@ -1037,8 +1037,8 @@ namespace Kiri
             return totalsValue;
         }
 
-        /// <summary>Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
-        /// frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).</summary>
+        /// <summary>Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+        /// KIRI_MODEL_LINKS.</summary>
         public double EstimateError()
         {
             double relativeValue = 0;
@@ -1168,9 +1168,10 @@ namespace Kiri
             return countValue;
         }
 
-        /// <summary>Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the
-        /// next tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next
-        /// point.</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
         public Cut BeginCut(Float2 restPoint)
         {
             var cutValue = new CutId();
@@ -1202,6 +1203,19 @@ namespace Kiri
             var tearingValue = new Tearing();
             World.CheckRead(Native.kiriSheet_GetTearing(World.Handle, Id, &tearingValue));
             return tearingValue;
+        }
+
+        /// <summary>Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a
+        /// factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again
+        /// replace it (manual, tearing).</summary>
+        public void SetTearLine(float[] restPoints, float factor, int count = -1)
+        {
+            if (count < 0) count = restPoints.Length;
+            if (count > restPoints.Length) World.ThrowRange();
+            fixed (float* restPointsRows = restPoints)
+            {
+                World.Check(Native.kiriSheet_SetTearLine(World.Handle, Id, restPointsRows, count, factor));
+            }
         }
 
         /// <summary>Writes up to `capacity` ids of the sheet's frames; *count is how many there are.</summary>
@@ -1537,8 +1551,10 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator CutId(Cut handle) { return handle.Id; }
 
-        /// <summary>Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-        /// last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
         public void Extend(float[] restPoints, int count = -1)
         {
             if (count < 0) count = restPoints.Length / 2;
@@ -1549,8 +1565,10 @@ namespace Kiri
             }
         }
 
-        /// <summary>Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-        /// last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
         public void End()
         {
             World.Check(Native.kiriCut_End(World.Handle, Id));
@@ -1570,24 +1588,24 @@ namespace Kiri
         public static implicit operator BladeId(Blade handle) { return handle.Id; }
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
+        /// casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        /// cuts stay.</summary>
         public void MoveEdge(Float3 from, Float3 to)
         {
             World.Check(Native.kiriBlade_MoveEdge(World.Handle, Id, (float*)&from, (float*)&to));
         }
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
+        /// casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        /// cuts stay.</summary>
         public void MoveRay(Float3 origin, Float3 direction, float length)
         {
             World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length));
         }
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        /// way. End the blade: its cuts stay, and end where the blade is.</summary>
+        /// casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        /// cuts stay.</summary>
         public void End()
         {
             World.Check(Native.kiriBlade_End(World.Handle, Id));

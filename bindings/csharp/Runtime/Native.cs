@@ -1103,9 +1103,9 @@ namespace Kiri
         public int collisionPointCount;
     }
 
-    /// <summary>How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
-    /// across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
-    /// (tearing).</summary>
+    /// <summary>How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
+    /// goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with
+    /// its tip.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Tearing
     {
@@ -1678,6 +1678,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_GetTearing(IntPtr world, SheetId sheet, Tearing* tearing);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_SetTearLine(IntPtr world, SheetId sheet, float* restPoints, int count, float factor);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriBeginBlade(IntPtr world, SheetId sheet, BladeId* blade);

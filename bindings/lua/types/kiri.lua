@@ -371,9 +371,9 @@ kiri.DRAW_ALL = 2047
 ---@field triangleCount? integer
 ---@field collisionPointCount? integer
 
---- How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a sharp notch, goes on
---- across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip
---- (tearing).
+--- How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
+--- goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its
+--- tip.
 ---@class kiri.Tearing
 ---@field toughness? number # J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
 ---@field grain? number[]|ffi.cdata* # direction in the rest plane along which it tears; 0, 0: none
@@ -610,9 +610,8 @@ function kiri.getResultName(result) end
 ---@return string
 function kiri.getResultText(result) end
 
---- Fill the def with its defaults; create an empty world. On failure *world is null, and the log gets the line.
---- KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). Destroy frees
---- the world and all its content; null is allowed.
+--- Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or
+--- null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 ---@param def? kiri.WorldDef
 ---@return kiri.WorldDef
 function kiri.defaultWorldDef(def) end
@@ -903,8 +902,8 @@ function Sheet:getCounts(counts) end
 ---@return kiri.Totals
 function Sheet:getTotals(totals) end
 
---- Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few frames
---- to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
+--- Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+--- KIRI_MODEL_LINKS.
 ---@return number
 function Sheet:estimateError() end
 
@@ -1064,21 +1063,27 @@ function World:destroyPieces(frames, count) end
 ---@return integer
 function Sheet:dropCrumbs(area) end
 
---- Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
---- tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 ---@param restPoint number[]|ffi.cdata*
 ---@return kiri.Cut
 function Sheet:beginCut(restPoint) end
 
---- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
---- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 ---@param restPoints number[]|ffi.cdata*
 ---@param count? integer
 ---@return boolean # work is left for later ticks
 function Cut:extend(restPoints, count) end
 
---- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
---- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
+--- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
+--- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- (KIRI_EVENT_CUT_FINISHED).
 ---@return boolean # work is left for later ticks
 function Cut:finish() end
 
@@ -1098,6 +1103,15 @@ function Sheet:setTearing(tearing) end
 ---@return kiri.Tearing
 function Sheet:getTearing(tearing) end
 
+--- Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
+--- more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
+--- tearing).
+---@param restPoints number[]|ffi.cdata*
+---@param factor number
+---@param count? integer
+---@return boolean # work is left for later ticks
+function Sheet:setTearLine(restPoints, factor, count) end
+
 --- A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material of each layer, and
 --- cuts on from there. Move it once a tick while it is in a sheet. Each layer has a cut (manual, cutting). `sheet` 0:
 --- all.
@@ -1106,16 +1120,14 @@ function Sheet:getTearing(tearing) end
 function World:beginBlade(sheet) end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Blade:moveEdge(from, to) end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 ---@param origin number[]|ffi.cdata*
 ---@param direction number[]|ffi.cdata*
 ---@param length number
@@ -1123,8 +1135,7 @@ function Blade:moveEdge(from, to) end
 function Blade:moveRay(origin, direction, length) end
 
 --- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
---- each end goes straight. The first call only says where it begins. An end inside cuts along its own way. End the
---- blade: its cuts stay, and end where the blade is.
+--- each end goes straight. The first call only places it. An end inside cuts along its own way. End it: cuts stay.
 ---@return boolean # work is left for later ticks
 function Blade:finish() end
 

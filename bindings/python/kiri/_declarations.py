@@ -105,6 +105,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriSheet_Slice': True,
  'kiriSheet_SetTearing': True,
  'kiriSheet_GetTearing': False,
+ 'kiriSheet_SetTearLine': True,
  'kiriBeginBlade': True,
  'kiriBlade_MoveEdge': True,
  'kiriBlade_MoveRay': True,
@@ -227,6 +228,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriSheet_Slice': ('Sheet', 'slice'),
  'kiriSheet_SetTearing': ('Sheet', 'set_tearing'),
  'kiriSheet_GetTearing': ('Sheet', 'tearing'),
+ 'kiriSheet_SetTearLine': ('Sheet', 'set_tear_line'),
  'kiriBeginBlade': ('World', 'begin_blade'),
  'kiriBlade_MoveEdge': ('Blade', 'move_edge'),
  'kiriBlade_MoveRay': ('Blade', 'move_ray'),
@@ -545,6 +547,7 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
+kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, float factor);
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
 kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3], const float direction[3], float length);

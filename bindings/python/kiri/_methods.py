@@ -269,8 +269,8 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetTotals', 'kiriTotals', self.id), self.world)
 
     def estimate_error(self) -> float:
-        """Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0 to 1; 1: too few
-        frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory (manual, accuracy).
+        """Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+        KIRI_MODEL_LINKS.
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)
 
@@ -345,9 +345,10 @@ class Sheet:
         return self.world.get('kiriSheet_DropCrumbs', 'int32_t', self.id, area)
 
     def begin_cut(self, rest_point: Numbers) -> kiri.Cut:
-        """Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the
-        next tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next
-        point.
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        effect (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.thing('Cut', self.world.get('kiriBeginCut', 'kiriCut', self.id, core.vector(rest_point, 2)))
 
@@ -371,6 +372,13 @@ class Sheet:
         KIRI_MODEL_LINKS.
         """
         return core.record(self.world.get('kiriSheet_GetTearing', 'kiriTearing', self.id), self.world)
+
+    def set_tear_line(self, rest_points: Numbers, factor: float) -> int:
+        """Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a
+        factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again
+        replace it (manual, tearing).
+        """
+        return self.world.call('kiriSheet_SetTearLine', self.id, *core.rows('float', rest_points, 1), factor)
 
     def frames(self) -> List[kiri.Frame]:
         """Returns the frames of the sheet."""
@@ -443,14 +451,18 @@ class Sheet:
 
 class Cut:
     def extend(self, rest_points: Numbers) -> int:
-        """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-        last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        effect (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.call('kiriCut_Extend', self.id, *core.rows('float', rest_points, 2))
 
     def end(self) -> int:
-        """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
-        last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
+        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+        inside stays closed until the next point. The id is stale after the tick in which the last point takes
+        effect (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.call('kiriCut_End', self.id)
 
@@ -609,22 +621,22 @@ class Obstacle:
 class Blade:
     def move_edge(self, start: Numbers, end: Numbers) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        way. End the blade: its cuts stay, and end where the blade is.
+        casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        cuts stay.
         """
         return self.world.call('kiriBlade_MoveEdge', self.id, core.vector(start, 3), core.vector(end, 3))
 
     def move_ray(self, origin: Numbers, direction: Numbers, length: float) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        way. End the blade: its cuts stay, and end where the blade is.
+        casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        cuts stay.
         """
         return self.world.call('kiriBlade_MoveRay', self.id, core.vector(origin, 3), core.vector(direction, 3), length)
 
     def end(self) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
-        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
-        way. End the blade: its cuts stay, and end where the blade is.
+        casts; each end goes straight. The first call only places it. An end inside cuts along its own way. End it:
+        cuts stay.
         """
         return self.world.call('kiriBlade_End', self.id)
 

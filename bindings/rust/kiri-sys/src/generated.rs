@@ -782,9 +782,9 @@ pub struct kiriPieceMesh {
     pub collisionPointCount: i32,
 }
 
-/// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a
-/// sharp notch, goes on across the tension where the sheet would set more energy free than the tear
-/// takes. Two frames go with its tip (tearing).
+/// How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or
+/// a sharp notch, goes on across the tension where the sheet would set more energy free than the
+/// tear takes. Two frames go with its tip.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriTearing {
@@ -1071,17 +1071,17 @@ unsafe extern "C" {
     /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
     /// line with its meaning.
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
-    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
-    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
-    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
+    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
+    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
+    /// float operations (manual, budget).
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
-    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
-    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
+    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
+    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
+    /// float operations (manual, budget).
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
-    /// Fill the def with its defaults; create an empty world. On failure \*world is null, and the
-    /// log gets the line. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float
-    /// operations (manual, budget). Destroy frees the world and all its content; null is allowed.
+    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
+    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
+    /// float operations (manual, budget).
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
@@ -1229,9 +1229,8 @@ unsafe extern "C" {
     pub fn kiriSheet_GetCounts(world: *const kiriWorld, sheet: kiriSheet, counts: *mut kiriCounts) -> kiriResult;
     /// Get the counts, at no cost; sum the totals over the frames.
     pub fn kiriSheet_GetTotals(world: *const kiriWorld, sheet: kiriSheet, totals: *mut kiriTotals) -> kiriResult;
-    /// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0
-    /// to 1; 1: too few frames to tell. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. It allocates memory
-    /// (manual, accuracy).
+    /// Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy).
+    /// KIRI_ERROR_STATE: not KIRI_MODEL_LINKS.
     pub fn kiriSheet_EstimateError(world: *const kiriWorld, sheet: kiriSheet, relative: *mut f64) -> kiriResult;
     /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
     /// kiriSheet_Wake wakes all.
@@ -1322,17 +1321,20 @@ unsafe extern "C" {
     /// Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one.
     /// \*count: their number.
     pub fn kiriSheet_DropCrumbs(world: *mut kiriWorld, sheet: kiriSheet, area: f32, count: *mut i32) -> kiriResult;
-    /// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take
-    /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
-    /// stays closed until the next point.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriBeginCut(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
-    /// tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the
-    /// frames that it needs.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriCut_Extend(world: *mut kiriWorld, cut: kiriCut, restPoints: *const f32, count: i32) -> kiriResult;
-    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
-    /// tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the
-    /// frames that it needs.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriCut_End(world: *mut kiriWorld, cut: kiriCut) -> kiriResult;
     /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
@@ -1344,24 +1346,25 @@ unsafe extern "C" {
     /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
     /// than KIRI_MODEL_LINKS.
     pub fn kiriSheet_GetTearing(world: *const kiriWorld, sheet: kiriSheet, tearing: *mut kiriTearing) -> kiriResult;
+    /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
+    /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
+    /// there. The same points again replace it (manual, tearing).
+    pub fn kiriSheet_SetTearLine(world: *mut kiriWorld, sheet: kiriSheet, restPoints: *const f32, count: i32, factor: f32) -> kiriResult;
     /// A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material
     /// of each layer, and cuts on from there. Move it once a tick while it is in a sheet. Each
     /// layer has a cut (manual, cutting). \`sheet\` 0: all.
     pub fn kiriBeginBlade(world: *mut kiriWorld, sheet: kiriSheet, blade: *mut kiriBlade) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
-    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
-    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
-    /// is.
+    /// ray that a camera casts; each end goes straight. The first call only places it. An end
+    /// inside cuts along its own way. End it: cuts stay.
     pub fn kiriBlade_MoveEdge(world: *mut kiriWorld, blade: kiriBlade, from: *const f32, to: *const f32) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
-    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
-    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
-    /// is.
+    /// ray that a camera casts; each end goes straight. The first call only places it. An end
+    /// inside cuts along its own way. End it: cuts stay.
     pub fn kiriBlade_MoveRay(world: *mut kiriWorld, blade: kiriBlade, origin: *const f32, direction: *const f32, length: f32) -> kiriResult;
     /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
-    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
-    /// An end inside cuts along its own way. End the blade: its cuts stay, and end where the blade
-    /// is.
+    /// ray that a camera casts; each end goes straight. The first call only places it. An end
+    /// inside cuts along its own way. End it: cuts stay.
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;

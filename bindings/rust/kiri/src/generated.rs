@@ -1710,9 +1710,9 @@ impl<'a> PieceMesh<'a> {
     }
 }
 
-/// How a sheet tears. A tear is a cut whose points the library chooses: the end of a cut, or a
-/// sharp notch, goes on across the tension where the sheet would set more energy free than the tear
-/// takes. Two frames go with its tip (tearing).
+/// How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or
+/// a sharp notch, goes on across the tension where the sheet would set more energy free than the
+/// tear takes. Two frames go with its tip.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Tearing {
@@ -2900,9 +2900,8 @@ impl Sheet {
         Ok(Totals::from_raw(&totals))
     }
 
-    /// Estimates the relative error of the current shape of a sheet that rests or moves slowly, 0
-    /// to 1; 1: too few frames to tell. [`ResultCode::ErrorState`]: not [`Model::Links`]. It
-    /// allocates memory (manual, accuracy).
+    /// Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy).
+    /// [`ResultCode::ErrorState`]: not [`Model::Links`].
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3054,9 +3053,10 @@ impl Sheet {
         Ok(count)
     }
 
-    /// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take
-    /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
-    /// stays closed until the next point.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
     pub fn begin_cut(self, world: &mut World, rest_point: [f32; 2]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3091,6 +3091,15 @@ impl Sheet {
         // SAFETY: it filled the struct.
         let tearing = unsafe { tearing.assume_init() };
         Ok(Tearing::from_raw(&tearing))
+    }
+
+    /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
+    /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
+    /// there. The same points again replace it (manual, tearing).
+    pub fn set_tear_line(self, world: &mut World, rest_points: &[f32], factor: f32) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSheet_SetTearLine(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, factor) }, world)?;
+        Ok(())
     }
 
     /// Writes up to capacity ids of the sheet's frames; \*count is how many there are.
@@ -3410,18 +3419,20 @@ impl Pin {
 }
 
 impl Cut {
-    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
-    /// tick in which its last point takes effect ([`EventType::CutFinished`]). The sheet then adds
-    /// the frames that it needs.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
     pub fn extend(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world)?;
         Ok(())
     }
 
-    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
-    /// tick in which its last point takes effect ([`EventType::CutFinished`]). The sheet then adds
-    /// the frames that it needs.
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
+    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
+    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world)?;
@@ -3431,8 +3442,8 @@ impl Cut {
 
 impl Blade {
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
-    /// that a camera casts; each end goes straight. The first call only says where it begins. An
-    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
+    /// that a camera casts; each end goes straight. The first call only places it. An end inside
+    /// cuts along its own way. End it: cuts stay.
     pub fn move_edge(self, world: &mut World, from: [f32; 3], to: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world)?;
@@ -3440,8 +3451,8 @@ impl Blade {
     }
 
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
-    /// that a camera casts; each end goes straight. The first call only says where it begins. An
-    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
+    /// that a camera casts; each end goes straight. The first call only places it. An end inside
+    /// cuts along its own way. End it: cuts stay.
     pub fn move_ray(self, world: &mut World, origin: [f32; 3], direction: [f32; 3], length: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world)?;
@@ -3449,8 +3460,8 @@ impl Blade {
     }
 
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
-    /// that a camera casts; each end goes straight. The first call only says where it begins. An
-    /// end inside cuts along its own way. End the blade: its cuts stay, and end where the blade is.
+    /// that a camera casts; each end goes straight. The first call only places it. An end inside
+    /// cuts along its own way. End it: cuts stay.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world)?;
