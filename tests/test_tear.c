@@ -368,7 +368,7 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 /* A leg pulls with toughness h / 2. */
 TEST(TrouserPullsWithItsForce)
 {
-    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 2.5 };
+    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 5.0 };
     static const int32_t frames[] = { 16, 32, 64 };
     for (int e = 0; e < 3; ++e) {
         for (int k = 0; k < 3; ++k) {

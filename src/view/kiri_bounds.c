@@ -325,6 +325,8 @@ static bool WalkTree(const BoxWalk* walk)
 
 typedef struct TriangleSearch {
     const kiriSurface* surface;
+    kiriMeetsFn* meets;
+    const void* space;
     kiriMemory* memory;
     kiriIndices* found;
 } TriangleSearch;
@@ -334,7 +336,8 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     const TriangleSearch* search = context;
     bool ok = true;
     KIRI_TIMES_WHILE(ok, i, count) {
-        if (!IsHidden(search->surface, triangles[i])) {
+        kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
+        if (!IsHidden(search->surface, triangles[i]) && search->meets(search->space, &box)) {
             ok = kiriArray_Push(search->memory, search->found, triangles[i]);
         }
     }
@@ -346,13 +349,6 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
 {
     int32_t before = found->count;
     bool ok = kiriBounds_FindMoving(bounds, surface, meets, context, 0, memory, found);
-    int32_t end = found->count;
-    found->count = before;
-    KIRI_FROM_TO(i, before, end) {
-        kiriBox box = BoxOfTriangle(surface, found->data[i]);
-        found->data[found->count] = found->data[i];
-        found->count += meets(context, &box);
-    }
     if (ok && found->count > before) {
         kiriSort(found->data + before, found->count - before, NULL, NULL);
     }
@@ -363,7 +359,7 @@ bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found)
 {
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, memory, found };
+    TriangleSearch search = { surface, meets, context, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }

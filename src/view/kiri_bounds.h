@@ -110,8 +110,8 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);
 
-/* Appends the same triangles and some beside them, in no order: all in boxes of the tree that meet the space. Leaves out
-   sleeping ones if `version` is the version of the movers in the last kiriBounds_Keep; 0: leaves out none. */
+/* Appends the same triangles in no order. Leaves out sleeping ones if `version` is the version of the movers in the last
+   kiriBounds_Keep; 0: leaves out none. */
 bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
 
