@@ -199,8 +199,7 @@ static bool IsDiscCut(int k, int32_t held, double radius, double widening)
     }
     EndAndTick(&stage);
     for (int32_t i = 0; i < Pieces(&stage); ++i) {
-        kiriPieceState piece = World_PieceState(stage.host.world, stage.sheet, i);
-        large += piece.area > 2.0 * radius * radius;
+        large += World_PieceState(stage.host.world, stage.sheet, i).area > 2.0 * radius * radius;
     }
     return large == 2;
 }
@@ -589,7 +588,6 @@ TEST(FallingSheets)
         }
         OK(kiriBlade_End(world, blade));
         OK(kiriWorld_Tick(world, 1.0f / 60.0f, 1));
-        kiriCounts counts = World_Counts(world, sheet);
-        assert_int_equal(counts.pieces, 2);
+        assert_int_equal(World_Counts(world, sheet).pieces, 2);
     }
 }

@@ -61,10 +61,8 @@ static int32_t VerticesAt(const kiriMesh* mesh, const float at[2])
 /* m^2 of the piece at a place. */
 static double AreaAt(const Host* host, kiriSheet sheet, const float at[2])
 {
-    kiriPointState point = World_PointState(host->world, sheet, at);
-    int32_t piece = World_PieceOf(host->world, point.frame);
-    kiriPieceState state = World_PieceState(host->world, sheet, piece);
-    return state.area;
+    int32_t piece = World_PieceOf(host->world, World_PointState(host->world, sheet, at).frame);
+    return World_PieceState(host->world, sheet, piece).area;
 }
 
 typedef struct Line {
@@ -476,8 +474,7 @@ TEST(KnotsEnd)
         DrawKnot(&seed, isSpiral, count, points);
         Host_Cut(&host, sheet, points, count);
         while (Host_Tick(&host, 1e-3f, 1) == KIRI_PENDING && items <= most) {
-            kiriProfile profile = World_Profile(host.world);
-            items += profile.trianglesSplit;
+            items += World_Profile(host.world).trianglesSplit;
         }
         assert_true(items <= most);
         assert_true(Host_Counts(&host, sheet).vertices <= 2000 + (isSpiral ? 6 : 20) * count);

@@ -106,8 +106,7 @@ static double SagOf(float stiffness, float lean, int32_t frames)
     }
     World_Clamp(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.05f });
     Host_Ticks(&host, 300, Dt, 2);
-    kiriPointState end = World_PointState(host.world, sheet, (const float[]){ 0.1f, 0.025f });
-    return -(double)end.position[2];
+    return -(double)World_PointState(host.world, sheet, (const float[]){ 0.1f, 0.025f }).position[2];
 }
 
 /* A fold that is stiffer than the material bends as the material does. */

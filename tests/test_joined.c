@@ -20,8 +20,7 @@ static bool TickOnce(Host* host, int32_t* commits)
 {
     kiriResult result = Host_Tick(host, dt, 1);
     assert_true(result >= 0);
-    kiriProfile profile = World_Profile(host->world);
-    *commits += profile.commits;
+    *commits += World_Profile(host->world).commits;
     return result == KIRI_PENDING;
 }
 

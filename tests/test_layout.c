@@ -449,8 +449,7 @@ TEST(SpiralsNeverFreeze)
             kiriMesh mesh = Host_Mesh(&host, sheet);
             double moved = 0.0;
             assert_true(mesh.vertexCount <= 8000);
-            kiriProfile profile = World_Profile(host.world);
-            systems += profile.systemsSolved;
+            systems += World_Profile(host.world).systemsSolved;
             for (int32_t i = 0; i < 3 * mesh.vertexCount; ++i) {
                 moved = fmax(moved, fabs((double)mesh.positions[i] - (double)were[i]));
                 were[i] = mesh.positions[i];

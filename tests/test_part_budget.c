@@ -73,8 +73,7 @@ static void TickOnce(Host* host, int32_t samples, kiriResult* result)
 {
     *result = Host_Tick(host, 1.0f / 60.0f, 1);
     assert_true(*result >= 0);
-    kiriProfile profile = World_Profile(host->world);
-    assert_true(samples == 0 || profile.samplesRefreshed <= samples);
+    assert_true(samples == 0 || World_Profile(host->world).samplesRefreshed <= samples);
 }
 
 /* Until nothing waits. */
@@ -111,8 +110,7 @@ static int32_t ChooseTargets(const Host* host, kiriSheet sheet, uint32_t* seed, 
 static double AreaOf(const Host* host, kiriSheet sheet, kiriFrame frame)
 {
     int32_t piece = World_PieceOf(host->world, frame);
-    kiriPieceState state = World_PieceState(host->world, sheet, piece);
-    return state.area;
+    return World_PieceState(host->world, sheet, piece).area;
 }
 
 /* Parts the targets in calls of one or a few, with ticks between them; returns the area that is destroyed. `waited`

@@ -372,8 +372,7 @@ TEST(CallsKeepToTheBudget)
             kiriEvent event;
             result = Host_Tick(&host, 1.0f / 60.0f, 1);
             int32_t came = Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, &event);
-            kiriProfile profile = World_Profile(host.world);
-            assert_true(profile.samplesRefreshed <= SAMPLES);
+            assert_true(World_Profile(host.world).samplesRefreshed <= SAMPLES);
             waiting -= came;
             most = came > most ? came : most;
             ticks += came > 0;
@@ -495,8 +494,7 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
     }
     Host_Cut(host, wait.sheet, zigzag, 10);
     assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), budget->cells > 0 ? KIRI_PENDING : KIRI_OK);
-    kiriPieceMesh mesh = World_PieceMesh(host->world, wait.sheet, 0);
-    wait.triangles = mesh.triangleCount;
+    wait.triangles = World_PieceMesh(host->world, wait.sheet, 0).triangleCount;
     return wait;
 }
 

@@ -349,8 +349,7 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
         }
         OK(Host_Tick(&host, Dt, 2));
     }
-    kiriTotals totals = World_Totals(host.world, sheet);
-    return totals.elasticEnergy;
+    return World_Totals(host.world, sheet).elasticEnergy;
 }
 
 /* A sheet yields at the same curvature in whichever direction it is rolled. */

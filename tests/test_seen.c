@@ -55,8 +55,7 @@ static int32_t CountAsleep(const Host* host, kiriSheet sheet)
 {
     int32_t asleep = 0;
     for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
-        kiriPieceState state = World_PieceState(host->world, sheet, p);
-        asleep += state.asleep;
+        asleep += World_PieceState(host->world, sheet, p).asleep;
     }
     return asleep;
 }
@@ -298,4 +297,24 @@ TEST(DetailOnBall)
     uint64_t seen = Look_Sheet(0, hosts[1].world, sheet[1]);
     OK(Host_Tick(&hosts[1], dt, 4));
     assert_true(Look_Sheet(0, hosts[1].world, sheet[1]) == seen);
+}
+
+/* Stretched, let go, and stretched again: an event each time, though the world is loaded from its save all the time. */
+TEST(Strained)
+{
+    kiriSheetDef def = SheetOf(16, 4);
+    kiriPin pins[4];
+    START_HOST(host);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+    for (int32_t tick = 0, told = 0; tick < 800; ++tick) {
+        for (int32_t k = 0; k < 4; ++k) {
+            const float u = (float)(k % 2), v = (float)(k / 2), at[3] = { u + 0.4f * u * (float)(tick / 200 % 2), v, 0.0f };
+            pins[k] = tick == 0 ? Host_Pin(&host, sheet, u, v, u, v, 0.0f) : pins[k];
+            OK(kiriPin_SetTarget(host.world, pins[k], at));
+        }
+        OK(Host_Tick(&host, dt, 2));
+        told += Host_Events(&host, KIRI_EVENT_STRAINED, NULL);
+        assert_true(told <= (tick / 200 + 1) / 2 && (told == (tick / 200 + 1) / 2 || tick % 200 < 199));
+        World_Copy(host.world, host.world, tick % 2 == 0 ? kiriWorld_Save : kiriWorld_Snapshot);
+    }
 }

@@ -113,6 +113,8 @@ const (
 	EventTearBegan EventType = 9
 	// cut: the tear has rested for half a second; the id is stale from now on
 	EventTearEnded EventType = 10
+	// area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s
+	EventStrained EventType = 11
 )
 
 var namesEventType = map[EventType]string{
@@ -126,6 +128,7 @@ var namesEventType = map[EventType]string{
 	8:  "KIRI_EVENT_SEAM_BROKE",
 	9:  "KIRI_EVENT_TEAR_BEGAN",
 	10: "KIRI_EVENT_TEAR_ENDED",
+	11: "KIRI_EVENT_STRAINED",
 }
 
 func (v EventType) String() string { return namesEventType[v] }
@@ -449,7 +452,7 @@ type Event struct {
 	Pin PinID
 	// 1: the piece is a crumb, see kiriSheetDef
 	Crumb int32
-	// m^2 of the piece, or 0
+	// m^2, or 0
 	Area float32
 	// KIRI_STAGE_..., or -1
 	Stage Stage
@@ -1771,8 +1774,7 @@ var poolSheetGetFold pool[struct {
 	state FoldState
 }]
 
-// Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
-// A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 func (s Sheet) Fold(index int32) (FoldState, error) {
 	var made0 FoldState
 	if err := s.World.check(); err != nil {
@@ -1788,8 +1790,7 @@ func (s Sheet) Fold(index int32) (FoldState, error) {
 	return answer.state, nil
 }
 
-// Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
-// A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 func (s Sheet) SetFold(index int32, stiffness float32, restAngle float32) error {
 	if err := s.World.check(); err != nil {
 		return err

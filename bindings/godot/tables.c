@@ -38,7 +38,7 @@ static const Field REPLAY_FIELDS[] = {
 static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
-static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603, 0x7, 0x7 };
+static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603, 0x7, 0x7, 0x43 };
 
 static const Field EVENT_FIELDS[] = {
     { "type", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, type), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -2451,6 +2451,7 @@ const Constant CONSTANTS[] = {
     { "EventType", "EVENT_SEAM_BROKE", 8, 0 },
     { "EventType", "EVENT_TEAR_BEGAN", 9, 0 },
     { "EventType", "EVENT_TEAR_ENDED", 10, 0 },
+    { "EventType", "EVENT_STRAINED", 11, 0 },
     { "Stage", "STAGE_CUT", 0, 0 },
     { "Stage", "STAGE_GRID", 1, 0 },
     { "Stage", "STAGE_REGIONS", 2, 0 },

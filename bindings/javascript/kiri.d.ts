@@ -91,6 +91,8 @@ export enum EventType {
     TearBegan = 9,
     /** cut: the tear has rested for half a second; the id is stale from now on */
     TearEnded = 10,
+    /** area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s */
+    Strained = 11,
 }
 
 /** The stages of a tick in their order. */
@@ -320,7 +322,8 @@ export type Event =
     { type: EventType.PieceDetached; sheet: Sheet; frame: Frame; area: number } |
     { type: EventType.SeamBroke; sheet: Sheet; seam: Seam; stitches: number } |
     { type: EventType.TearBegan; sheet: Sheet; cut: Cut } |
-    { type: EventType.TearEnded; sheet: Sheet; cut: Cut };
+    { type: EventType.TearEnded; sheet: Sheet; cut: Cut } |
+    { type: EventType.Strained; sheet: Sheet; area: number };
 
 /** Work and time of the last tick. */
 export class Profile {
@@ -1415,11 +1418,11 @@ export class Sheet {
     /** Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
      *  KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
     addFold(fold: FoldGiven): number;
-    /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
-     *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+    /** A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+     *  sheet. */
     getFold(index: number, into?: FoldState): FoldState;
-    /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
-     *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+    /** A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+     *  sheet. */
     setFold(index: number, stiffness: number, restAngle: number): ResultCode;
     /** Gets the arrays, without a copy. */
     getMesh(into?: Mesh): Mesh;

@@ -16,7 +16,7 @@ export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, Er
 export const LEAST_TRIANGLES = 16;
 export const MOST_NOTE_BYTES = 1048576;
 export const EventType = enumeration({ CutFinished: 1, PieceOff: 2, FrameAdded: 3, Diverged: 4, Deferred: 5, PinBroke:
-    6, PieceDetached: 7, SeamBroke: 8, TearBegan: 9, TearEnded: 10 });
+    6, PieceDetached: 7, SeamBroke: 8, TearBegan: 9, TearEnded: 10, Strained: 11 });
 export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Samples: 4, Constants: 5, Contact: 6, Solve:
     7, Skin: 8, Count: 9 });
 export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Silk: 5, Shirting: 6,

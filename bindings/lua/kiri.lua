@@ -270,7 +270,8 @@ kiri.EVENT_PIECE_DETACHED = 7
 kiri.EVENT_SEAM_BROKE = 8
 kiri.EVENT_TEAR_BEGAN = 9
 kiri.EVENT_TEAR_ENDED = 10
-kiri.EventType = {[1] = "CUT_FINISHED", [2] = "PIECE_OFF", [3] = "FRAME_ADDED", [4] = "DIVERGED", [5] = "DEFERRED", [6] = "PIN_BROKE", [7] = "PIECE_DETACHED", [8] = "SEAM_BROKE", [9] = "TEAR_BEGAN", [10] = "TEAR_ENDED"}
+kiri.EVENT_STRAINED = 11
+kiri.EventType = {[1] = "CUT_FINISHED", [2] = "PIECE_OFF", [3] = "FRAME_ADDED", [4] = "DIVERGED", [5] = "DEFERRED", [6] = "PIN_BROKE", [7] = "PIECE_DETACHED", [8] = "SEAM_BROKE", [9] = "TEAR_BEGAN", [10] = "TEAR_ENDED", [11] = "STRAINED"}
 kiri.STAGE_CUT = 0
 kiri.STAGE_GRID = 1
 kiri.STAGE_REGIONS = 2
@@ -1023,8 +1024,7 @@ function Sheet:addFold(fold)
     return index
 end
 
---- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
---- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+--- A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 function Sheet:getFold(index, state)
     local world = self.world
     state = state or new.kiriFoldState()
@@ -1033,8 +1033,7 @@ function Sheet:getFold(index, state)
     return state
 end
 
---- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
---- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+--- A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 function Sheet:setFold(index, stiffness, restAngle)
     local world = self.world
     local result = C.kiriSheet_SetFold(world.c, self.id, index, stiffness, restAngle)

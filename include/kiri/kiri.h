@@ -202,7 +202,8 @@ enum kiriEventType {
     KIRI_EVENT_PIECE_DETACHED = 7, /* sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done */
     KIRI_EVENT_SEAM_BROKE = 8,     /* seam, stitches: some stitches broke; with none left the id is stale from now on */
     KIRI_EVENT_TEAR_BEGAN = 9,     /* cut: the library began it, see kiriTearing */
-    KIRI_EVENT_TEAR_ENDED = 10     /* cut: the tear has rested for half a second; the id is stale from now on */
+    KIRI_EVENT_TEAR_ENDED = 10,    /* cut: the tear has rested for half a second; the id is stale from now on */
+    KIRI_EVENT_STRAINED = 11       /* area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s */
 };
 
 /* An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1. */
@@ -213,7 +214,7 @@ typedef struct kiriEvent {
     kiriFrame frame;  /* 0: none */
     kiriPin pin;      /* 0: none */
     int32_t crumb;    /* 1: the piece is a crumb, see kiriSheetDef */
-    float area;       /* m^2 of the piece, or 0 */
+    float area;       /* m^2, or 0 */
     int32_t stage;    /* KIRI_STAGE_..., or -1 */
     int32_t waiting;  /* points and ends of cuts that are pending or in work; or 0 */
     kiriSeam seam;    /* 0: none */
@@ -440,8 +441,7 @@ typedef struct kiriFoldState {
     double angle, length;
 } kiriFoldState;
 
-/* Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices. A
-   rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+/* A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet. */
 KIRI_API kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
 KIRI_API kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness,
                                       float restAngle);

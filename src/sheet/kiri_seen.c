@@ -727,3 +727,35 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     kiriView_WriteRange(sheet, 0, count);
     kiriView_EndWriting(sheet);
 }
+
+double kiriView_Watch(kiriSheetData* sheet, double dt)
+{
+    kiriStrainWatch* watch = &sheet->watch;
+    const kiriSurface* surface = &sheet->seen.surface;
+    double end = kiriMin(watch->done + dt, 1.0), strained = 0.0;
+    KIRI_ASSERT(watch->done >= 0.0 && watch->done < 1.0 && dt >= 0.0);
+    KIRI_ASSERT(3 * (int64_t)surface->triangleCount <= surface->indices.capacity);
+    KIRI_FROM_TO(t, (int32_t)(watch->done * surface->triangleCount), (int32_t)(end * surface->triangleCount)) {
+        const int32_t* c = surface->indices.data + 3 * t; /* all the same in a hidden triangle */
+        bool isBeyond = false;
+        kiriVec2 sides[3];
+        KIRI_EACH_CORNER(k) {
+            int32_t a = c[k], b = c[(k + 1) % 3];
+            KIRI_ASSERT_HAS(surface->rest, a);
+            sides[k] = kiriVec2_Sub(surface->rest.data[b], surface->rest.data[a]);
+            kiriVec3 is = kiriVec3_Sub(kiriSurface_DrawnAt(surface, b), kiriSurface_DrawnAt(surface, a));
+            double squared = kiriVec3_Dot(is, is), rest = kiriVec2_Dot(sides[k], sides[k]);
+            isBeyond = isBeyond || squared > 1.15 * 1.15 * rest || squared < 0.85 * 0.85 * rest;
+        }
+        double area = 0.5 * kiriVec2_Cross(sides[0], sides[1]);
+        watch->area += area;
+        watch->strained += isBeyond ? area : 0.0;
+    }
+    watch->done = end;
+    if (end == 1.0) {
+        int32_t rounds = watch->strained > 0.1 * watch->area ? watch->rounds + 1 : 0;
+        strained = rounds == 2 ? watch->strained : 0.0;
+        *watch = (kiriStrainWatch){ 0.0, 0.0, 0.0, kiriMin(rounds, 2) };
+    }
+    return strained;
+}

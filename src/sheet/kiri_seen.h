@@ -84,6 +84,10 @@ void kiriView_KeepBounds(kiriSheetData* sheet);
 /* Writes positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
+/* Measures the drawn surface in rounds of a second, each triangle once. Returns the strained area, m^2, if a second round
+   in a row finds more than a tenth of the surface strained by over 15 %; else 0. */
+double kiriView_Watch(kiriSheetData* sheet, double dt);
+
 /* The steps of kiriView_WritePositions, in order. A range step writes only the vertices from `begin` to `end`, so
    ranges that begin at multiples of 4 may run in parallel. */
 void kiriView_TakeFrames(kiriSheetData* sheet);

@@ -481,6 +481,13 @@ typedef struct kiriTears {
     KIRI_ARRAY(kiriFrameData) before;      /* frames before they went where they will be; none: they are there */
 } kiriTears;
 
+/* See kiriView_Watch. */
+typedef struct kiriStrainWatch {
+    double done;           /* share of the triangles that the current round has measured */
+    double area, strained; /* m^2: of these triangles, and of the ones that are strained too much */
+    int32_t rounds;        /* rounds in a row that found too many, 2 at most: then the host is told */
+} kiriStrainWatch;
+
 /* A part of a seam in the rest plane, between two stitches. */
 typedef struct kiriSewnLine {
     kiriSeam seam;
@@ -535,6 +542,7 @@ typedef struct kiriSheetData {
     kiriSheetRest rest;
     kiriPieceTurns turns;
     kiriSeen seen;
+    kiriStrainWatch watch;
     kiriPieceLists lists;
     kiriProbes probes;
     kiriPast past;

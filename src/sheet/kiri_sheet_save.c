@@ -284,6 +284,11 @@ KIRI_TABLE(TurnsTable, kiriPieceTurns, {
     KIRI_WITHIN(0, 0, waiting),
 })
 
+KIRI_TABLE(StrainWatchTable, kiriStrainWatch, {
+    KIRI_REALS(done, strained),
+    KIRI_WITHIN(0, 2, rounds),
+})
+
 /* Counts come first: a load checks indices against them as it reads. */
 static void MoveCounts(kiriArchive* archive, void* object)
 {
@@ -339,6 +344,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_CUSTOM(tearLines, HashTearLines),
     KIRI_UNHASHED,
     KIRI_PARTS(tearLines, TearLineTable),
+    KIRI_PART(watch, StrainWatchTable),
     KIRI_RUN(4, id),
     KIRI_PART(regions, kiriRegionsTable),
     KIRI_PART(probes, ProbesTable),
@@ -683,7 +689,8 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
                                      AreAreaElements(&sheet->layout) && ArePins(sheet) &&
                                      AreCuts(sheet) && AreContacts(sheet) &&
                                      AreFades(&sheet->seen.fades, &sheet->settings, sheet->mesh.vertices.count) &&
-                                     AreFades(&sheet->seen.pointFades, &sheet->settings, sheet->points.count)));
+                                     AreFades(&sheet->seen.pointFades, &sheet->settings, sheet->points.count) &&
+                                     sheet->watch.done >= 0.0 && sheet->watch.done < 1.0));
     if (kiriArchive_HasFailed(archive)) {
         return;
     }

@@ -164,7 +164,7 @@ static bool FindTouches(kiriWorld* world, double dt)
 /* Reserves room for the ids and events of the tick. Sheets that wake in it may also lose pins. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
-    int64_t frames = 0, events = world->events.count + 2 * (int64_t)world->sheets.count + world->cutIds.slots.count +
+    int64_t frames = 0, events = world->events.count + 3 * (int64_t)world->sheets.count + world->cutIds.slots.count +
                                  world->pinIds.slots.count + world->seams.count;
     KIRI_EACH_ACTIVE(sheet, world) {
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
@@ -375,6 +375,10 @@ static void SkinAll(kiriWorld* world, double dt)
         const kiriFades* fades = &sheet->seen.fades;
         world->profile.largestJump = kiriMax(fades->jump, world->profile.largestJump);
         world->profile.largestFade = kiriMax(fades->move, world->profile.largestFade);
+        double strained = kiriView_Watch(sheet, dt);
+        if (strained > 0.0) {
+            kiriWorld_AddEvent(world, KIRI_EVENT_STRAINED, sheet)->area = (float)strained;
+        }
     }
 }
 

@@ -919,8 +919,8 @@ namespace Kiri
             return indexValue;
         }
 
-        /// <summary>Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
-        /// indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.</summary>
+        /// <summary>A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+        /// sheet.</summary>
         public FoldState GetFold(int index)
         {
             var stateValue = new FoldState();
@@ -928,8 +928,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
-        /// indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.</summary>
+        /// <summary>A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+        /// sheet.</summary>
         public void SetFold(int index, float stiffness, float restAngle)
         {
             World.Check(Native.kiriSheet_SetFold(World.Handle, Id, index, stiffness, restAngle));

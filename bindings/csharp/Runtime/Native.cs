@@ -388,6 +388,8 @@ namespace Kiri
         TearBegan = 9,
         /// <summary>cut: the tear has rested for half a second; the id is stale from now on</summary>
         TearEnded = 10,
+        /// <summary>area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s</summary>
+        Strained = 11,
     }
 
     /// <summary>The stages of a tick in their order.</summary>
@@ -628,7 +630,7 @@ namespace Kiri
         public PinId Pin;
         /// <summary>1: the piece is a crumb, see kiriSheetDef</summary>
         public Flag Crumb;
-        /// <summary>m^2 of the piece, or 0</summary>
+        /// <summary>m^2, or 0</summary>
         public float Area;
         /// <summary>KIRI_STAGE_..., or -1</summary>
         public Stage Stage;

@@ -29,6 +29,7 @@ kiri.EVENT_PIECE_DETACHED = 7
 kiri.EVENT_SEAM_BROKE = 8
 kiri.EVENT_TEAR_BEGAN = 9
 kiri.EVENT_TEAR_ENDED = 10
+kiri.EVENT_STRAINED = 11
 kiri.STAGE_CUT = 0
 kiri.STAGE_GRID = 1
 kiri.STAGE_REGIONS = 2
@@ -133,7 +134,7 @@ kiri.DRAW_ALL = 2047
 ---@field frame? kiri.Frame # 0: none
 ---@field pin? kiri.Pin # 0: none
 ---@field crumb? boolean|integer # 1: the piece is a crumb, see kiriSheetDef
----@field area? number # m^2 of the piece, or 0
+---@field area? number # m^2, or 0
 ---@field stage? integer # KIRI_STAGE_..., or -1
 ---@field waiting? integer # points and ends of cuts that are pending or in work; or 0
 ---@field seam? kiri.Seam # 0: none
@@ -803,15 +804,13 @@ function World:createFoldedSheet(def, folds, count) end
 ---@return integer
 function Sheet:addFold(fold) end
 
---- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
---- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+--- A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 ---@param index integer
 ---@param state? kiri.FoldState
 ---@return kiri.FoldState
 function Sheet:getFold(index, state) end
 
---- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
---- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+--- A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the sheet.
 ---@param index integer
 ---@param stiffness number
 ---@param restAngle number

@@ -223,14 +223,14 @@ class Sheet:
         return self.world.get('kiriSheet_AddFold', 'int32_t', self.id, structure)
 
     def fold(self, index: int) -> Record:
-        """Returns and change a fold by its index. A part of the sheet that is detached has its own folds, with the
-        same indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+        """A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+        sheet.
         """
         return core.record(self.world.get('kiriSheet_GetFold', 'kiriFoldState', self.id, index), self.world)
 
     def set_fold(self, index: int, stiffness: float, rest_angle: float) -> int:
-        """Returns and change a fold by its index. A part of the sheet that is detached has its own folds, with the
-        same indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+        """A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps. Changes wake the
+        sheet.
         """
         return self.world.call('kiriSheet_SetFold', self.id, index, stiffness, rest_angle)
 

@@ -70,6 +70,8 @@ pub const KIRI_EVENT_SEAM_BROKE: i32 = 8;
 pub const KIRI_EVENT_TEAR_BEGAN: i32 = 9;
 /// cut: the tear has rested for half a second; the id is stale from now on
 pub const KIRI_EVENT_TEAR_ENDED: i32 = 10;
+/// area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s
+pub const KIRI_EVENT_STRAINED: i32 = 11;
 
 /// splits the mesh along the blade
 pub const KIRI_STAGE_CUT: i32 = 0;
@@ -301,7 +303,7 @@ pub struct kiriEvent {
     pub pin: kiriPin,
     /// 1: the piece is a crumb, see kiriSheetDef
     pub crumb: i32,
-    /// m^2 of the piece, or 0
+    /// m^2, or 0
     pub area: f32,
     /// KIRI_STAGE_..., or -1
     pub stage: i32,
@@ -1188,13 +1190,11 @@ unsafe extern "C" {
     /// of cuts, until a KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors
     /// as of kiriCreateFoldedSheet.
     pub fn kiriSheet_AddFold(world: *mut kiriWorld, sheet: kiriSheet, fold: *const kiriFold, index: *mut i32) -> kiriResult;
-    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
-    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
-    /// steps. The sheet wakes.
+    /// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps.
+    /// Changes wake the sheet.
     pub fn kiriSheet_GetFold(world: *const kiriWorld, sheet: kiriSheet, index: i32, state: *mut kiriFoldState) -> kiriResult;
-    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
-    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
-    /// steps. The sheet wakes.
+    /// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps.
+    /// Changes wake the sheet.
     pub fn kiriSheet_SetFold(world: *mut kiriWorld, sheet: kiriSheet, index: i32, stiffness: f32, restAngle: f32) -> kiriResult;
     /// Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns
     /// rows indices.

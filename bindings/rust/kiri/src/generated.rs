@@ -252,11 +252,13 @@ pub enum EventType {
     TearBegan = 9,
     /// cut: the tear has rested for half a second; the id is stale from now on
     TearEnded = 10,
+    /// area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s
+    Strained = 11,
 }
 
 impl EventType {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::CutFinished,
         Self::PieceOff,
         Self::FrameAdded,
@@ -267,6 +269,7 @@ impl EventType {
         Self::SeamBroke,
         Self::TearBegan,
         Self::TearEnded,
+        Self::Strained,
     ];
 
     /// Of a number of C.
@@ -2322,7 +2325,7 @@ pub enum Event {
         frame: Frame,
         /// 1: the piece is a crumb, see [`SheetDef`]
         crumb: bool,
-        /// m^2 of the piece, or 0
+        /// m^2, or 0
         area: f32,
     },
     /// frame
@@ -2359,7 +2362,7 @@ pub enum Event {
         sheet: Sheet,
         /// Frame.
         frame: Frame,
-        /// m^2 of the piece, or 0
+        /// m^2, or 0
         area: f32,
     },
     /// seam, stitches: some stitches broke; with none left the id is stale from now on
@@ -2385,6 +2388,13 @@ pub enum Event {
         /// Cut.
         cut: Cut,
     },
+    /// area: of the visible surface, over a tenth of it, strained by over 15 % for 1 s
+    Strained {
+        /// Sheet.
+        sheet: Sheet,
+        /// m^2, or 0
+        area: f32,
+    },
 }
 
 impl Event {
@@ -2400,6 +2410,7 @@ impl Event {
             EventType::SeamBroke => Self::SeamBroke { sheet: Sheet::known(raw.sheet), seam: Seam::known(raw.seam), stitches: raw.stitches },
             EventType::TearBegan => Self::TearBegan { sheet: Sheet::known(raw.sheet), cut: Cut::known(raw.cut) },
             EventType::TearEnded => Self::TearEnded { sheet: Sheet::known(raw.sheet), cut: Cut::known(raw.cut) },
+            EventType::Strained => Self::Strained { sheet: Sheet::known(raw.sheet), area: raw.area },
         }
     }
 }
@@ -2784,9 +2795,8 @@ impl Sheet {
         Ok(index)
     }
 
-    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
-    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
-    /// steps. The sheet wakes.
+    /// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps.
+    /// Changes wake the sheet.
     pub fn fold(self, world: &World, index: i32) -> Result<FoldState> {
         let mut state = MaybeUninit::<sys::kiriFoldState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2796,9 +2806,8 @@ impl Sheet {
         Ok(FoldState::from_raw(&state))
     }
 
-    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
-    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
-    /// steps. The sheet wakes.
+    /// A fold by its index; a detached part keeps it. A rest angle drives the fold: small steps.
+    /// Changes wake the sheet.
     pub fn set_fold(self, world: &mut World, index: i32, stiffness: f32, rest_angle: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetFold(world.raw_mut(), self.raw(), index, stiffness, rest_angle) }, world)?;
