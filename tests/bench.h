@@ -53,6 +53,42 @@ static inline kiriWorldDef Bench_WorldDef(void)
     return def;
 }
 
+/* What a world holds, and has held at most. */
+typedef struct Count {
+    int64_t bytes, peak;
+} Count;
+
+static inline void* Count_Alloc(void* user, int64_t bytes)
+{
+    Count* count = user;
+    int64_t* block = malloc((size_t)bytes + 16);
+    if (block == NULL) {
+        return NULL;
+    }
+    *block = bytes;
+    count->bytes += bytes;
+    count->peak = count->bytes > count->peak ? count->bytes : count->peak;
+    return block + 2;
+}
+
+static inline void Count_Free(void* user, void* pointer)
+{
+    if (pointer != NULL) {
+        int64_t* block = (int64_t*)pointer - 2;
+        ((Count*)user)->bytes -= *block;
+        free(block);
+    }
+}
+
+static inline kiriResult Count_CreateWorld(Count* count, kiriWorld** world)
+{
+    kiriWorldDef def = Bench_WorldDef();
+    def.user = count;
+    def.alloc = Count_Alloc;
+    def.free = Count_Free;
+    return kiriCreateWorld(&def, world);
+}
+
 /* The program's result. */
 static inline int Bench_End(bool fine, const char* fault)
 {

@@ -4,43 +4,6 @@
 
 #include "bench.h"
 
-/* ---- Memory ------------------------------------------------------------------------------------------------------ */
-
-typedef struct Count {
-    int64_t bytes, peak;
-} Count;
-
-static void* CountedAlloc(void* user, int64_t bytes)
-{
-    Count* count = user;
-    int64_t* block = malloc((size_t)bytes + 16);
-    if (block == NULL) {
-        return NULL;
-    }
-    *block = bytes;
-    count->bytes += bytes;
-    count->peak = count->bytes > count->peak ? count->bytes : count->peak;
-    return block + 2;
-}
-
-static void CountedFree(void* user, void* pointer)
-{
-    if (pointer != NULL) {
-        int64_t* block = (int64_t*)pointer - 2;
-        ((Count*)user)->bytes -= *block;
-        free(block);
-    }
-}
-
-static bool StartWorld(Count* count, kiriWorld** world)
-{
-    kiriWorldDef def = Bench_WorldDef();
-    def.user = count;
-    def.alloc = CountedAlloc;
-    def.free = CountedFree;
-    return kiriCreateWorld(&def, world) == KIRI_OK;
-}
-
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */
 
 typedef struct Made {
@@ -55,7 +18,7 @@ static bool Make(int32_t squares, int32_t grid, Made* made)
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid > 0 ? grid : def.gridResolution;
-    bool fine = StartWorld(&count, &world);
+    bool fine = Count_CreateWorld(&count, &world) == KIRI_OK;
     double start = Bench_Clock(NULL);
     fine = fine && Bench_AddSheet(world, &def, squares, &sheet);
     made->ms = 1e3 * (Bench_Clock(NULL) - start);

@@ -1,5 +1,5 @@
 /* What each feature of a scene costs where it is used, and that it costs nothing where it is not: a cloth that hangs by
-   two corners, is cut by one slit and swings, with one feature changed at a time. Times are ratios to the plain sheet,
+   two corners, is cut by one slit and swings, with one feature changed or obstacles added at a time. Times are ratios to the plain sheet,
    which runs again beside each; memory is what the world holds in the end. */
 #define _POSIX_C_SOURCE 199309L
 
@@ -7,29 +7,7 @@
 
 #include <stdint.h>
 
-enum { SQUARES = 64, TICKS = 126, CUT_TICK = 20, CALM_TICK = 66, RUNS = 5, HEADER = 16 };
-
-/* ---- Memory ---- */
-
-static int64_t liveBytes;
-
-static void* CountAlloc(void* user, int64_t bytes)
-{
-    int64_t* block = malloc((size_t)bytes + HEADER);
-    if (block == NULL) {
-        return NULL;
-    }
-    *block = bytes;
-    liveBytes += bytes;
-    return (char*)block + HEADER;
-}
-
-static void CountFree(void* user, void* pointer)
-{
-    int64_t* block = (int64_t*)((char*)pointer - HEADER);
-    liveBytes -= *block;
-    free(block);
-}
+enum { SQUARES = 64, TICKS = 126, CUT_TICK = 20, CALM_TICK = 66, RUNS = 5 };
 
 /* ---- Features ---- */
 
@@ -90,6 +68,31 @@ static bool AddSewn(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
     return fine && kiriCreateSeam(world, &seam, &made) == KIRI_OK;
 }
 
+/* The cloth hangs from z = 1 to 0. */
+static bool AddFloor(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
+{
+    kiriObstacleDef floor = ObstacleOf(KIRI_OBSTACLE_PLANE);
+    kiriObstacle made;
+    floor.position[2] = 0.05f;
+    return kiriCreateObstacle(world, &floor, &made) == KIRI_OK;
+}
+
+static bool AddBoxes(kiriWorld* world, int32_t side, float apart)
+{
+    bool fine = true;
+    for (int32_t i = 0; fine && i < side * side; i++) {
+        kiriObstacleDef box = ObstacleOf(KIRI_OBSTACLE_BOX);
+        kiriObstacle made;
+        Set3(box.size, 0.06f, 0.1f, 0.06f);
+        Set3(box.position, apart * (float)(i % side), 0.055f, apart * (float)(i / side));
+        fine = kiriCreateObstacle(world, &box, &made) == KIRI_OK;
+    }
+    return fine;
+}
+
+static bool AddWall(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def) { return AddBoxes(world, 10, 0.1f); }
+static bool AddTown(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def) { return AddBoxes(world, 32, 2.0f); }
+
 #define SET(name, set) { name, set, NULL, NULL }
 
 static const Feature features[] = {
@@ -98,7 +101,8 @@ static const Feature features[] = {
     SET("backward Euler", SetEuler), SET("planar", SetPlanar), SET("affine frames", SetAffine),
     SET("integration points", SetPaperPoints), SET("yields", SetYields),
     SET("may yield, and does not", SetNeverYields), { "3 folds", SetNothing, AddFolds, NULL },
-    { "2 sheets sewn, or apart", SetNothing, AddSewn, AddApart },
+    { "2 sheets sewn, or apart", SetNothing, AddSewn, AddApart },   { "floor that is touched", SetNothing, AddFloor, NULL },
+    { "100 boxes that are touched", SetNothing, AddWall, NULL },    { "1024 boxes, 1 near", SetNothing, AddTown, NULL },
 };
 enum { FEATURES = sizeof(features) / sizeof(features[0]) };
 
@@ -110,11 +114,8 @@ typedef struct Cost {
     int32_t frames;
 } Cost;
 
-static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def), AddFn* add)
+static bool MakeWorld(Count* count, kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def), AddFn* add)
 {
-    kiriWorldDef worldDef = DefaultWorld();
-    worldDef.alloc = CountAlloc;
-    worldDef.free = CountFree;
     kiriSheetDef def = DefaultSheet();
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
@@ -122,7 +123,7 @@ static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheet
     def.gridResolution = 50;
     def.sleepSpeed = 0.0f;
     set(&def);
-    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
+    bool fine = Count_CreateWorld(count, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
                 Bench_PinCorners(*world, *sheet, 1.0f, 1.0f) && (add == NULL || add(*world, *sheet, &def));
     return fine;
 }
@@ -136,10 +137,11 @@ static double TimedTick(kiriWorld* world)
 
 static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
 {
+    Count count = { 0, 0 };
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     SCOPED(Series, plain, Series_Free);
-    if (!MakeWorld(&world, &sheet, set, add)) {
+    if (!MakeWorld(&count, &world, &sheet, set, add)) {
         return false;
     }
     for (int tick = 0; tick < TICKS; ++tick) {
@@ -160,7 +162,7 @@ static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
     kiriCounts counts;
     kiriSheet_GetCounts(world, sheet, &counts);
     cost->tick = Series_Median(&plain);
-    cost->bytes = (double)liveBytes;
+    cost->bytes = (double)count.bytes;
     cost->frames = counts.frames;
     return true;
 }
