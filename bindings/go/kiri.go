@@ -1928,8 +1928,7 @@ var poolSheetEstimateError pool[struct {
 	relative C.double
 }]
 
-// Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
-// KIRI_MODEL_LINKS.
+// Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS.
 func (s Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := s.World.check(); err != nil {

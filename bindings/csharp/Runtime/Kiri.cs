@@ -1037,7 +1037,7 @@ namespace Kiri
             return totalsValue;
         }
 
-        /// <summary>Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+        /// <summary>Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
         /// KIRI_MODEL_LINKS.</summary>
         public double EstimateError()
         {

@@ -901,7 +901,7 @@ function Sheet:getCounts(counts) end
 ---@return kiri.Totals
 function Sheet:getTotals(totals) end
 
---- Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+--- Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
 --- KIRI_MODEL_LINKS.
 ---@return number
 function Sheet:estimateError() end

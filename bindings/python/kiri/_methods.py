@@ -269,7 +269,7 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetTotals', 'kiriTotals', self.id), self.world)
 
     def estimate_error(self) -> float:
-        """Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy). KIRI_ERROR_STATE: not
+        """Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
         KIRI_MODEL_LINKS.
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)

@@ -2909,7 +2909,7 @@ impl Sheet {
         Ok(Totals::from_raw(&totals))
     }
 
-    /// Estimates the relative error of a sheet that rests, 0 to 1 (manual, accuracy).
+    /// Estimates the error of a sheet that rests; 1: too few frames. It allocates.
     /// [`ResultCode::ErrorState`]: not [`Model::Links`].
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
