@@ -2520,7 +2520,7 @@ func (s Sheet) Tearing() (Tearing, error) {
 // Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
 // more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
 // tearing).
-func (s Sheet) SetTearLine(restPoints []float32, factor float32) error {
+func (s Sheet) SetTearLine(restPoints [][2]float32, factor float32) error {
 	if err := s.World.check(); err != nil {
 		return err
 	}

@@ -1631,7 +1631,7 @@ static const Parameter SHEET_GET_TEARING_PARAMETERS[] = {
 };
 
 static const Argument SHEET_SET_TEAR_LINE_ARGUMENTS[] = {
-    { "rest_points", KIND_FLOATS, CLASS_NONE },
+    { "rest_points", KIND_VECTORS2, CLASS_NONE },
     { "factor", KIND_REAL, CLASS_NONE },
 };
 
@@ -1643,7 +1643,7 @@ static int64_t Call_kiriSheet_SetTearLine(void* const* a)
 static const Parameter SHEET_SET_TEAR_LINE_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
-    { "rest_points", FORM_IN_ROWS, TYPE_FLOAT, KIND_FLOATS, 1, 3, 1, 0, CLASS_NONE, NULL, NULL },
+    { "rest_points", FORM_IN_ROWS, TYPE_FLOAT, KIND_VECTORS2, 1, 3, 2, 0, CLASS_NONE, NULL, NULL },
     { "count", FORM_IN_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "factor", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };

@@ -2380,8 +2380,8 @@ export class Sheet extends Thing {
     setTearLine(restPoints, factor) {
         const $world = pointer(this.world);
         try {
-            const $restPoints = putRows("Float32Array", restPoints, 1, "restPoints");
-            const $result = wasm.kiriSheet_SetTearLine($world, this.id, $restPoints, restPoints.length, factor);
+            const $restPoints = putRows("Float32Array", restPoints, 2, "restPoints");
+            const $result = wasm.kiriSheet_SetTearLine($world, this.id, $restPoints, restPoints.length / 2, factor);
             if ($result < 0) {
                 fail(this.world, $result, "kiriSheet_SetTearLine");
             }

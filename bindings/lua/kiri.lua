@@ -1463,7 +1463,7 @@ end
 --- tearing).
 function Sheet:setTearLine(restPoints, factor, count)
     local world = self.world
-    restPoints, count = rows_of(restPoints, count, "float", 1)
+    restPoints, count = rows_of(restPoints, count, "float", 2)
     local result = C.kiriSheet_SetTearLine(world.c, self.id, restPoints, count, factor)
     if result < 0 then fail(world, "kiriSheet_SetTearLine", result, true) end
     return result == 1

@@ -1210,8 +1210,8 @@ namespace Kiri
         /// replace it (manual, tearing).</summary>
         public void SetTearLine(float[] restPoints, float factor, int count = -1)
         {
-            if (count < 0) count = restPoints.Length;
-            if (count > restPoints.Length) World.ThrowRange();
+            if (count < 0) count = restPoints.Length / 2;
+            if (count > restPoints.Length / 2) World.ThrowRange();
             fixed (float* restPointsRows = restPoints)
             {
                 World.Check(Native.kiriSheet_SetTearLine(World.Handle, Id, restPointsRows, count, factor));

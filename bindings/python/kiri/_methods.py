@@ -378,7 +378,7 @@ class Sheet:
         factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again
         replace it (manual, tearing).
         """
-        return self.world.call('kiriSheet_SetTearLine', self.id, *core.rows('float', rest_points, 1), factor)
+        return self.world.call('kiriSheet_SetTearLine', self.id, *core.rows('float', rest_points, 2), factor)
 
     def frames(self) -> List[kiri.Frame]:
         """Returns the frames of the sheet."""

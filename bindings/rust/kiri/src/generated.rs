@@ -3105,7 +3105,7 @@ impl Sheet {
     /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
     /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
     /// there. The same points again replace it (manual, tearing).
-    pub fn set_tear_line(self, world: &mut World, rest_points: &[f32], factor: f32) -> Result<()> {
+    pub fn set_tear_line(self, world: &mut World, rest_points: &[[f32; 2]], factor: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetTearLine(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, factor) }, world)?;
         Ok(())
