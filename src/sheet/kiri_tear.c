@@ -53,7 +53,7 @@ static bool PushTip(kiriSheetData* sheet, kiriTearTip tip)
            kiriArray_Push(sheet->memory, &sheet->tears.found, tip);
 }
 
-static bool IsLip(const kiriMeshData* mesh, int32_t h)
+static bool IsTornEdge(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_Twin(mesh, h) == KIRI_NONE || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
 }
@@ -69,7 +69,7 @@ static bool IsClear(const kiriSheetData* sheet, kiriVec2 p)
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
             kiriVec2 b = kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h));
-            isClear &= !IsLip(mesh, h) || kiriVec2_DistanceToWay(p, a, b) > sheet->settings.snap * mesh->step;
+            isClear &= !IsTornEdge(mesh, h) || kiriVec2_DistanceToWay(p, a, b) > sheet->settings.snap * mesh->step;
         }
     }
     return isClear;
@@ -81,7 +81,7 @@ static bool IsOn(const kiriSheetData* sheet, const kiriTearLine* line, kiriVec2 
 }
 
 /* Finds where a perforation meets a lip. Lips along the perforation, as of a tear that follows it, do not count. */
-static bool FindEnd(const kiriSheetData* sheet, const kiriTearLine* line, int32_t h, kiriTearTip* tip)
+static bool FindLineEnd(const kiriSheetData* sheet, const kiriTearLine* line, int32_t h, kiriTearTip* tip)
 {
     const kiriMeshData* mesh = &sheet->mesh;
     KIRI_ASSERT(h >= 0 && h < 3 * mesh->triangles.count && line->factor < 1.0);
@@ -114,9 +114,9 @@ bool kiriTears_List(kiriSheetData* sheet)
         }
     }
     KIRI_TIMES_WHILE(sheet->tearLines.count > 0, h, 3 * mesh->triangles.count) {
-        KIRI_EACH_WHILE(IsLip(mesh, h), const kiriTearLine, line, sheet->tearLines) {
+        KIRI_EACH_WHILE(IsTornEdge(mesh, h), const kiriTearLine, line, sheet->tearLines) {
             kiriTearTip tip;
-            if (line->factor < 1.0 && FindEnd(sheet, line, h, &tip) && !PushTip(sheet, tip)) {
+            if (line->factor < 1.0 && FindLineEnd(sheet, line, h, &tip) && !PushTip(sheet, tip)) {
                 return false;
             }
         }
@@ -383,7 +383,7 @@ static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriV
     kiriNearby around = kiriNearby_Begin(&mesh->squares, tip->point, kiriMesh_Snap(mesh, kiriVec2_Add(from, way)), 0.0);
     for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
-            if (IsLip(mesh, h) && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
+            if (IsTornEdge(mesh, h) && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
                 kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
                 part = kiriMin(CrossedAt(mesh, a, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), from, way), part);
             }
