@@ -369,9 +369,9 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 TEST(TrouserPullsWithItsForce)
 {
     static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 5.0 };
-    static const int32_t frames[] = { 16, 32, 64 };
+    static const int32_t frames[] = { 16, 32 };
     for (int e = 0; e < 3; ++e) {
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 2; ++k) {
             START_HOST(host);
             int32_t ticks = e == 2 ? 100 : 200;
             Trouser t;
@@ -403,7 +403,7 @@ TEST(StampsPartAlongTheirPerforations)
 {
     static const float lines[] = { -0.01f, 0.02f,  0.085f, 0.02f, 0.05f,  -0.01f,
                                    0.05f,  0.05f, 0.025f, 0.05f, 0.025f, -0.01f };
-    enum { STAMPS = 50, HANDS = 3 };
+    enum { STAMPS = 10, HANDS = 3 };
     int32_t parted = 0;
     for (uint32_t seed = 0; seed < STAMPS; ++seed) {
         START_HOST(host);
