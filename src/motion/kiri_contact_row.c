@@ -884,13 +884,16 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 
 #define MOST_DEPTH 5e-3      /* m: smaller depths are left for the next step, as resting sheets need them */
 #define TOLERABLE_DEPTH 1e-3 /* m: depth that holding leaves */
+#define MOST_TURN 0.3        /* limit for a frame while held, about its angle in radians */
 #define LEAST_WEIGHT 0.05    /* minimum weight of a frame that is held */
 #define SWEEPS 12            /* over all contacts */
 
 /* Returns how far the obstacle is pushed down, m. */
 static double Yielded(const kiriContactStep* step)
 {
-    return kiriMax(step->push, 0.0) * step->give;
+    double held = step->push - kiriMax(step->solved, 0.0);
+    double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
+    return step->push > 0.0 ? step->push * step->give + more : 0.0;
 }
 
 /* Returns true if a point of the body is too deep. Stores the pushes of the systems in `solved`. */
@@ -905,14 +908,54 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
     return isDeep;
 }
 
+/* Shares the mass of obstacles among all contacts that may be held, which may be many more than the contacts that
+   pressed in the last system. Otherwise each would push the obstacle out as if it were alone, and a light body would be
+   shot off. */
+static void ShareMass(kiriSolver* solver)
+{
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL) {
+            contact->yield->held = 0;
+        }
+    }
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL) {
+            contact->yield->held += 1;
+        }
+    }
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        const kiriYieldRow* yield = step->yield;
+        int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
+        step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
+    }
+}
+
+/* Restores the rotations at the start for frames that turned too far. Touches were found for these rotations; after a
+   large turn, other points of the material are below planes. */
+static void TurnBack(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_TIMES(f, system->frameCount) {
+        const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
+        kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
+        double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
+        if (!system->frames[f].held && turn > MOST_TURN * MOST_TURN) {
+            solver->poses.data[f].A = *start;
+        }
+    }
+}
+
+static kiriVec3 AlongNormalOf(const kiriSystem* system, const kiriContactStep* step)
+{
+    kiriVec3 normal = step->row->normal;
+    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
+}
+
 /* Pushes a frame until the point, as it carries it, is on the plane. The frame moves without turning, so depths change
    as expected, however far it has turned. Each frame is pushed by itself, not only their blend. This keeps frames, and
    the material between the points, from passing each other on their way to the plane. */
 static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, int32_t f)
 {
-    const kiriMechanics* mechanics = &system->mechanics;
-    kiriVec3 normal = step->row->normal;
-    kiriVec3 along = mechanics->planar ? kiriMechanics_InPlane(mechanics, normal) : normal;
+    kiriVec3 along = AlongNormalOf(system, step);
     kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, step->row->at, solver->poses.data),
                                 kiriSystem_Point(system, f, step->row->at, solver->start.data));
     double depth = DepthAt(step, kiriVec3_Add(step->start, way)) - Yielded(step);
@@ -920,7 +963,7 @@ static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContact
     if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
         return false;
     }
-    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->give);
+    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->shared);
     step->push += push;
     solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
     return true;
@@ -935,31 +978,76 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContact
     return any;
 }
 
-/* Sweeps over all contacts until none is too deep. Takes the held poses if the body stores no more energy than allowed. */
-void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
+/* Moves all frames of the body equally, which stores no energy. `mass`: mass of the frames that the host does not
+   hold. */
+static bool HoldWhole(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mass)
 {
-    size_t bytes = sizeof(kiriPose) * (size_t)system->frameCount;
-    bool isLeft = IsDeep(solver, system);
-    if (!isLeft) {
-        return;
+    kiriVec3 along = AlongNormalOf(system, step);
+    double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
+    double inertia = mass / (solver->stepping.part * solver->stepping.part), share = kiriVec3_Dot(along, along);
+    if (!(mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
+        return false;
     }
-    memcpy(solver->trial.data, solver->poses.data, bytes);
+    double push = depth / (share / inertia + step->shared);
+    step->push += push;
+    KIRI_TIMES(f, system->frameCount) {
+        if (!system->frames[f].held) {
+            solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
+        }
+    }
+    return true;
+}
+
+/* Sweeps over all contacts until none is too deep: frame by frame, or the body as a whole. */
+static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
+{
+    bool isLeft = true;
+    double mass = 0.0;
+    KIRI_TIMES(f, system->frameCount) {
+        mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
+    }
     KIRI_TIMES_WHILE(isLeft, sweep, SWEEPS) {
         isLeft = false;
         KIRI_EACH(kiriContactStep, step, solver->contacts) {
-            isLeft |= !kiriContact_IsMutual(step) && HoldFrames(solver, system, step);
+            if (kiriContact_IsMutual(step)) {
+                continue;
+            }
+            isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
         }
     }
+}
+
+/* Accepts the held poses if the body stores no more energy than allowed. Otherwise restores the poses after the
+   systems, from `trial`, and returns false. */
+static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
+{
     kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->poses.data);
-    double most = kiriMax(solver->search.start.potential + solver->touch.means, solver->search.now.potential);
-    solver->touch.isHeldUp = energy.potential <= most;
-    if (solver->touch.isHeldUp) {
+    double most = solver->search.start.potential + solver->touch.means;
+    most = kiriMax(most, solver->search.now.potential);
+    if (energy.potential <= most) {
         solver->search.now = energy;
-    } else {
-        memcpy(solver->poses.data, solver->trial.data, bytes);
-        KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-            contact->push = contact->solved;
-        }
+        solver->touch.isHeldUp = true;
+        return true;
+    }
+    memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        contact->push = contact->solved;
+    }
+    return false;
+}
+
+void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    if (!IsDeep(solver, system)) {
+        return;
+    }
+    memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    ShareMass(solver);
+    TurnBack(solver, system);
+    SweepHolds(solver, system, false);
+    if (!TakeHeld(solver, system)) {
+        SweepHolds(solver, system, true);
+        TakeHeld(solver, system);
     }
     kiriSolver_FindGains(solver, system);
 }

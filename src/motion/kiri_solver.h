@@ -21,6 +21,7 @@ typedef struct kiriYieldRow {
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
     kiriWrench impulse;      /* N s, N m s about the centre: given by sheets in this tick; a step adds to it */
     int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass */
+    int32_t held;            /* scratch: contacts that may be held up after the systems of the current step */
 } kiriYieldRow;
 
 typedef struct kiriSolver kiriSolver;
@@ -406,6 +407,7 @@ typedef struct kiriContactStep {
     double known;           /* N: largest push in any system so far; of a soft contact, the expected or last one */
     double stiffness, grip; /* N/m: springs on depth and slide */
     double give;            /* m/N: compliance of the obstacle in the step */
+    double shared;          /* m/N: the same while the point is held up after the last system */
     double depth, sinks;    /* m: depth at assembly, and its change by the whole solution */
     kiriVec3 slide, slides; /* m: slide at assembly, and its change by the whole solution */
     /* Soft contacts only. */
