@@ -1113,16 +1113,168 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, d
     return work;
 }
 
+/* Gives the yield row `times` the impulse of the contact in the step. */
+static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, double times)
+{
+    kiriYieldRow* yield = step->yield;
+    if (yield != NULL) {
+        kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
+        kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(system, step, solver->poses.data), yield->center);
+        kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
+        kiriWrench_Add(&yield->impulse, -times, &given);
+    }
+}
+
+/* ---- Pinned bodies ----------------------------------------------------------------------------------------------- */
+
+#define ONE_SIDED 0.5  /* of the sum of push magnitudes: if the vector sum is smaller, contacts oppose each other */
+#define MOST_MORE 30.0 /* upper limit of Pinned.more */
+
+/* A body with pins. Sums are N s. */
+typedef struct Pinned {
+    bool isPinned;         /* only pins, contacts, gravity and forces act */
+    kiriVec3 asked, given; /* impulse of contacts: from momentum and pins; from the contacts themselves */
+    double pressed;        /* sum of the magnitudes of contact impulses */
+    double held;           /* N/m: stiffness of all its pins */
+    double more;           /* ratio of the true impulse of contacts to `given`; 1 if unknown */
+} Pinned;
+
+static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
+{
+    double part = solver->stepping.part;
+    Pinned sum = { .isPinned = !kiriSystem_HasWind(system) && system->clampCount == 0 && !solver->isHeld, .more = 1.0 };
+    KIRI_TIMES(f, system->frameCount) {
+        const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
+        kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
+        kiriVec3 change = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
+        change = kiriVec3_AddScaled(change, -solver->dt, kiriVec3_Add(gravity, before->force));
+        sum.asked = kiriVec3_Add(sum.asked, change);
+    }
+    KIRI_TIMES(k, system->pinCount) {
+        const kiriPinRow* pin = &system->pins[k];
+        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
+        sum.asked = kiriVec3_AddScaled(sum.asked, part * pin->stiffness, off);
+        sum.held += pin->stiffness;
+    }
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (kiriContact_IsMutual(contact)) {
+            continue;
+        }
+        kiriVec3 impulse = kiriVec3_Scale(part, kiriContact_Force(solver, contact));
+        sum.given = kiriVec3_Add(sum.given, impulse);
+        sum.pressed += kiriVec3_Length(impulse);
+    }
+    return sum;
+}
+
+/* Sets `more`. After few systems, a pinned sheet hit by something heavy is stretched more than in the linear model of
+   its contacts. The true impulse of contacts is the change of momentum minus the impulse of the pins. It is unknown if
+   contacts press from two sides. */
+static void FindMore(kiriSolver* solver, Pinned* sum)
+{
+    double fit = kiriVec3_Dot(sum->asked, sum->given), size = kiriVec3_Dot(sum->given, sum->given);
+    bool isClear = size > ONE_SIDED * ONE_SIDED * sum->pressed * sum->pressed;
+    if (sum->isPinned && isClear && fit > 0.0) {
+        double more = kiriMin(fit / size, MOST_MORE);
+        solver->touch.keepForces *= kiriMin(more, 1.0);
+        sum->given = kiriVec3_Scale(kiriMin(more, 1.0), sum->given);
+        sum->more = kiriMax(1.0, more);
+    }
+}
+
+/* Computes the push on the obstacle times the obstacle's, and times the sheet's, speed along it, N s m/s. */
+static void FindPower(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                      double* ofObstacle, double* ofSheet)
+{
+    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0 };
+    kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
+    KIRI_TIMES(m, step->memberCount) {
+        kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
+        way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
+    }
+    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step, point));
+    *ofSheet = kiriVec3_Dot(push, way);
+}
+
+/* Gives obstacles the impulses of contacts. If isMore, sums the power of the pushes before and after that. */
+static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
+{
+    double ofObstacle, ofSheet;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        kiriYieldRow* yield = contact->yield;
+        if (yield != NULL) {
+            yield->before = yield->after = yield->most = 0.0;
+        }
+    }
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
+        kiriYieldRow* yield = step->yield;
+        if (yield != NULL) {
+            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            yield->before += ofObstacle;
+            yield->most += kiriMax(ofSheet, 0.0);
+        }
+    }
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        Give(solver, system, contact, 1.0);
+    }
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
+        kiriYieldRow* yield = step->yield;
+        if (yield != NULL) {
+            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            yield->after += ofObstacle;
+        }
+    }
+}
+
+/* Limits the ratio `more`: the additional impulse may stop an obstacle, or accelerate it to the speed of the sheet, but
+   no further. The momentum of a cloth can be thousands of times the momentum of a light body on it. */
+static double LimitMore(const kiriSolver* solver, double more)
+{
+    KIRI_EACH_WHILE(more > 1.0, kiriContactStep, contact, solver->contacts) {
+        const kiriYieldRow* yield = contact->yield;
+        if (yield != NULL) {
+            double each = yield->after - yield->before, room = yield->most - yield->before;
+            double most = room > each ? room / each : 1.0;
+            more = each > 0.0 && more > most ? most : more;
+        }
+    }
+    return more;
+}
+
+/* Gives yield rows the impulses of contacts in the step. For a pinned body these follow from its momentum and its pins,
+   as far as obstacles can receive them. The pins get the rest, in proportion to their stiffness, as if the body were
+   shifted slightly: pins are stiff, and if a frame turns in the last system, their lengths differ from those in the
+   system. */
+static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
+{
+    Pinned sum = SumPinned(solver, system);
+    FindMore(solver, &sum);
+    GivePushes(solver, system, sum.more > 1.0);
+    sum.more = LimitMore(solver, sum.more);
+    KIRI_EACH_WHILE(sum.more > 1.0, kiriContactStep, contact, solver->contacts) {
+        Give(solver, system, contact, sum.more - 1.0);
+    }
+    solver->touch.keepForces *= sum.more;
+    sum.given = kiriVec3_Scale(sum.more, sum.given);
+    bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
+    KIRI_TIMES_WHILE(isBalanced, k, system->pinCount) {
+        if (solver->pinReactions.data[k] == NULL) {
+            continue;
+        }
+        kiriVec3 left = kiriVec3_Sub(sum.asked, sum.given);
+        kiriVec3* impulse = &solver->pinReactions.data[k]->impulse.force;
+        *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
+    }
+}
+
 /* Writes the impulses of the step first, then the displacements of the planes. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
-        kiriYieldRow* yield = step->yield;
-        if (yield != NULL) {
-            kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
-            kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(system, step, solver->poses.data), yield->center);
-            kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
-            kiriWrench_Add(&yield->impulse, -1.0, &given);
+    if (solver->contacts.count > 0 && system->pinCount > 0) {
+        BalancePinned(solver, system);
+    } else {
+        KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+            Give(solver, system, contact, 1.0);
         }
     }
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {

@@ -22,6 +22,9 @@ typedef struct kiriYieldRow {
     kiriWrench impulse;      /* N s, N m s about the centre: given by sheets in this tick; a step adds to it */
     int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass */
     int32_t held;            /* scratch: contacts that may be held up after the systems of the current step */
+    /* Scratch, N s m/s, see kiri_contact_row.c: sums of push times speed along it, before and after the pushes act, and
+       the upper limit of `after`. */
+    double before, after, most;
 } kiriYieldRow;
 
 typedef struct kiriSolver kiriSolver;
