@@ -38,7 +38,7 @@ static bool Sew(Scene* scene, kiriSheet a, kiriSheet b, const float* lineA, cons
 
 enum { BODY = 12, NECK = 4, SLEEVE = 12, ROWS = 28, UNDERARM = 16, COLUMNS = BODY + SLEEVE, PANELS = 4 };
 
-/* Of a panel, from its middle outwards and upwards: hem, underarm, shoulder, cuff. */
+/* Corners of a panel, from its middle outwards and upwards: hem, underarm, shoulder, cuff. */
 static const float hemAt[2] = { 0.27f, 0.0f }, armAt[2] = { 0.26f, 0.36f }, shoulderAt[2] = { 0.23f, 0.60f };
 static const float cuffAt[2][2] = { { 0.36f, 0.26f }, { 0.476f, 0.428f } }; /* below, above */
 static const float neckAt[2] = { 0.085f, 0.65f }, frontAt[2] = { 0.0f, 0.57f };

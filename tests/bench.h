@@ -53,39 +53,39 @@ static inline kiriWorldDef Bench_WorldDef(void)
     return def;
 }
 
-/* What a world holds, and has held at most. */
-typedef struct Count {
+/* Memory of a world: now, and the most so far. */
+typedef struct Held {
     int64_t bytes, peak;
-} Count;
+} Held;
 
-static inline void* Count_Alloc(void* user, int64_t bytes)
+static inline void* Held_Alloc(void* user, int64_t bytes)
 {
-    Count* count = user;
+    Held* held = user;
     int64_t* block = malloc((size_t)bytes + 16);
     if (block == NULL) {
         return NULL;
     }
     *block = bytes;
-    count->bytes += bytes;
-    count->peak = count->bytes > count->peak ? count->bytes : count->peak;
+    held->bytes += bytes;
+    held->peak = held->bytes > held->peak ? held->bytes : held->peak;
     return block + 2;
 }
 
-static inline void Count_Free(void* user, void* pointer)
+static inline void Held_Free(void* user, void* pointer)
 {
     if (pointer != NULL) {
         int64_t* block = (int64_t*)pointer - 2;
-        ((Count*)user)->bytes -= *block;
+        ((Held*)user)->bytes -= *block;
         free(block);
     }
 }
 
-static inline kiriResult Count_CreateWorld(Count* count, kiriWorld** world)
+static inline kiriResult Held_CreateWorld(Held* held, kiriWorld** world)
 {
     kiriWorldDef def = Bench_WorldDef();
-    def.user = count;
-    def.alloc = Count_Alloc;
-    def.free = Count_Free;
+    def.user = held;
+    def.alloc = Held_Alloc;
+    def.free = Held_Free;
     return kiriCreateWorld(&def, world);
 }
 

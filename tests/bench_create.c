@@ -13,21 +13,21 @@ typedef struct Made {
 
 static bool Make(int32_t squares, int32_t grid, Made* made)
 {
-    Count count = { 0, 0 };
+    Held held = { 0, 0 };
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid > 0 ? grid : def.gridResolution;
-    bool fine = Count_CreateWorld(&count, &world) == KIRI_OK;
+    bool fine = Held_CreateWorld(&held, &world) == KIRI_OK;
     double start = Bench_Clock(NULL);
     fine = fine && Bench_AddSheet(world, &def, squares, &sheet);
     made->ms = 1e3 * (Bench_Clock(NULL) - start);
-    made->bytes = count.bytes;
-    made->peak = count.peak;
+    made->bytes = held.bytes;
+    made->peak = held.peak;
     start = Bench_Clock(NULL);
     fine = fine && kiriWorld_Tick(world, 1.0f / 60.0f, 1) == KIRI_OK;
     made->firstTick = 1e3 * (Bench_Clock(NULL) - start);
-    made->after = count.bytes;
+    made->after = held.bytes;
     return fine;
 }
 

@@ -114,7 +114,7 @@ typedef struct Cost {
     int32_t frames;
 } Cost;
 
-static bool MakeWorld(Count* count, kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def), AddFn* add)
+static bool MakeWorld(Held* held, kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def), AddFn* add)
 {
     kiriSheetDef def = DefaultSheet();
     def.axisV[1] = 0.0f;
@@ -123,7 +123,7 @@ static bool MakeWorld(Count* count, kiriWorld** world, kiriSheet* sheet, void (*
     def.gridResolution = 50;
     def.sleepSpeed = 0.0f;
     set(&def);
-    bool fine = Count_CreateWorld(count, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
+    bool fine = Held_CreateWorld(held, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
                 Bench_PinCorners(*world, *sheet, 1.0f, 1.0f) && (add == NULL || add(*world, *sheet, &def));
     return fine;
 }
@@ -137,11 +137,11 @@ static double TimedTick(kiriWorld* world)
 
 static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
 {
-    Count count = { 0, 0 };
+    Held held = { 0, 0 };
     SCOPED_WORLD(world) = NULL;
     kiriSheet sheet;
     SCOPED(Series, plain, Series_Free);
-    if (!MakeWorld(&count, &world, &sheet, set, add)) {
+    if (!MakeWorld(&held, &world, &sheet, set, add)) {
         return false;
     }
     for (int tick = 0; tick < TICKS; ++tick) {
@@ -162,7 +162,7 @@ static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
     kiriCounts counts;
     kiriSheet_GetCounts(world, sheet, &counts);
     cost->tick = Series_Median(&plain);
-    cost->bytes = (double)count.bytes;
+    cost->bytes = (double)held.bytes;
     cost->frames = counts.frames;
     return true;
 }

@@ -51,7 +51,7 @@ typedef struct GameStatus {
 typedef struct GameType {
     const char* name;
     const char* about; /* one line */
-    const char* keys;  /* the same: what its keys and buttons do, those of the shell left out */
+    const char* keys;  /* one line: its own keys and buttons, without the keys of the shell */
     int32_t levels;    /* numbered from 1 */
 
     void* (*start)(int32_t level, const GameHost* host); /* null: it says on stderr what failed */

@@ -58,7 +58,7 @@ void kiriField_Clear(kiriField* field)
 enum { BELOW = -1, EQUAL, ABOVE };
 
 /* Returns the steps of a cell that may lead to values below, equal to, or above `than` plus `sign` times their length:
-   a bit each, in their order. Of cells that are not open: all bits. */
+   a bit each, in their order. Cells that are not open have all bits. */
 static inline int32_t HitsAt(const kiriField* field, const kiriGrid* grid, int32_t cell, int which, int32_t than,
                              int32_t sign)
 {

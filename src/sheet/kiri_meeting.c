@@ -246,15 +246,17 @@ static void CollectVertices(const kiriMeeting* meeting)
     }
 }
 
-/* Marks the found vertices that had a force. Keys of a save may say anything. */
+/* Marks the found vertices that had a force. */
 static void MarkPushed(const kiriMeeting* meeting, const kiriTouchMemory* memory)
 {
     kiriObstacleSearch* search = meeting->search;
-    KIRI_EACH(const kiriTouchForce, force, memory->forces) {
-        uint32_t vertex = (uint32_t)(force->key & (ROUND_ITEM - 1));
-        if (force->key == MakeKey(meeting, false, vertex) && vertex < (uint32_t)search->marks.count) {
-            search->marks.data[vertex] += search->marks.data[vertex] == search->mark;
+    uint64_t first = MakeKey(meeting, false, 0), end = MakeKey(meeting, false, (uint32_t)search->marks.count);
+    for (int32_t k = kiriTouchMemory_FirstFrom(memory, first); k < memory->forces.count; ++k) {
+        uint64_t key = memory->forces.data[k].key;
+        if (key >= end) {
+            return;
         }
+        search->marks.data[key - first] += search->marks.data[key - first] == search->mark;
     }
 }
 

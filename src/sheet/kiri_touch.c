@@ -267,8 +267,7 @@ bool kiriProbes_Remake(kiriSheetData* sheet)
     return true;
 }
 
-/* Returns the index of the first force whose key is not less. */
-static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
+int32_t kiriTouchMemory_FirstFrom(const kiriTouchMemory* memory, uint64_t key)
 {
     int32_t low;
     KIRI_SEARCH(low, 0, memory->forces.count, memory->forces.data[middle].key < key);
@@ -329,7 +328,7 @@ static bool IsNone(kiriVec3 force)
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key)
 {
     const kiriVec3 none = { 0 };
-    for (int32_t at = FindForce(memory, key); at < memory->forces.count && memory->forces.data[at].key == key; ++at) {
+    for (int32_t at = kiriTouchMemory_FirstFrom(memory, key); at < memory->forces.count && memory->forces.data[at].key == key; ++at) {
         kiriVec3 force = memory->forces.data[at].force;
         if (!IsNone(force)) {
             memory->forces.data[at].force = none;
@@ -710,7 +709,7 @@ const kiriTouchForce* kiriTouches_Find(const kiriSheetData* sheet, uint64_t key)
 {
     const kiriTouchMemory* memories[] = { &sheet->touches.last, &sheet->touches.slept };
     KIRI_TIMES(n, 2) {
-        int32_t at = FindForce(memories[n], key);
+        int32_t at = kiriTouchMemory_FirstFrom(memories[n], key);
         if (at < memories[n]->forces.count && memories[n]->forces.data[at].key == key) {
             return &memories[n]->forces.data[at];
         }

@@ -117,6 +117,9 @@ void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVe
 /* Merges the nonzero forces of the touches from `first` on into the sorted forces. `order` has capacity for them. */
 void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndices* order);
 
+/* Returns the index of the first force whose key is not less. */
+int32_t kiriTouchMemory_FirstFrom(const kiriTouchMemory* memory, uint64_t key);
+
 /* Takes the first remaining force of a key; returns zero if there is none. Its entry stays, zeroed, until DropTaken. */
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key);
 void kiriTouchMemory_DropTaken(kiriTouchMemory* memory);

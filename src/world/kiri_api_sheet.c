@@ -799,6 +799,7 @@ kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float*
 {
     KIRI_CHANGES(Sheet_SetTearLine, &sheet, restPoints, &count, &factor);
     kiriSheetData* data = call->sheet;
+    const int32_t known = data->tearLines.count;
     KIRI_REQUIRE(kiriArray_ReserveMore(data->memory, &data->tearLines, count), KIRI_ERROR_MEMORY, NULL);
     KIRI_FROM_TO(k, kiriMin(1, count - 1), count) {
         const float* from = &restPoints[2 * (int64_t)kiriMax(k - 1, 0)];
@@ -806,11 +807,10 @@ kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float*
         kiriTearLine line = { kiriSheet_ToLocal(data, from), to, factor };
         if (kiriCut_Clip(&data->mesh, &line.from, &line.to)) {
             int32_t at = 0;
-            while (at < data->tearLines.count && memcmp(&data->tearLines.data[at], &line, 2 * sizeof(kiriVec2)) != 0) {
+            while (at < known && memcmp(&data->tearLines.data[at], &line, 2 * sizeof(kiriVec2)) != 0) {
                 ++at;
             }
-            data->tearLines.count = kiriMax(data->tearLines.count, at + 1);
-            data->tearLines.data[at] = line;
+            *(at < known ? &data->tearLines.data[at] : &KIRI_NEXT(data->tearLines)) = line;
         }
     }
     data->tears.areListed = false;
