@@ -360,7 +360,7 @@ manual-golden: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 # Those that take longest begin first: what is begun last keeps one processor, and the others wait.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
-LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,samples refusals update parting extremes load games promises seen \
+LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,samples refusals tear update parting extremes load games promises seen \
              estimate joined part_budget blade))
 
 .PHONY: $(TEST_RUNS) run-tests coverage
