@@ -30,8 +30,8 @@ EMPTY = {3: 'config_version=4\n\n[rendering]\n\nquality/driver/driver_name="GLES
          4: 'config_version=5\n\n[rendering]\n\nrenderer/rendering_method="gl_compatibility"\n'}
 # compatibility_minimum of kiri.gdextension.
 OLDEST = 2
-MARKS = {3: ["ERROR: kiri: KiriSheet.create_pin: KIRI_ERROR_ARGUMENT: kiriCreatePin: restPoint lies outside"],
-         4: ["ERROR: KiriSheet.create_pin: KIRI_ERROR_ARGUMENT: kiriCreatePin: restPoint lies outside", "typed calls good"]}
+LINE = "KiriSheet.create_pin: rest_point lies outside the material (ERROR_ARGUMENT)"
+MARKS = {3: [f"ERROR: kiri: {LINE}"], 4: [f"ERROR: {LINE}", "typed calls good"]}
 
 
 class Engine:

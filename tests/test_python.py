@@ -473,7 +473,7 @@ def test_raycast():
 def test_errors():
     world, sheet, _ = make_scene()
     error = raises(kiri.KiriError, world.tick, -1.0)
-    assert error.result == kiri.KIRI_ERROR_ARGUMENT and str(error).startswith("KIRI_ERROR_ARGUMENT: ")
+    assert error.result == kiri.KIRI_ERROR_ARGUMENT and "KIRI_ERROR_ARGUMENT" in str(error)
     raises(TypeError, world.create_rectangle, 1, 1, 2, 2, noSuchField=1)
     raises(ValueError, sheet.begin_cut, (0.5,))
     sheet.destroy()
@@ -492,12 +492,16 @@ def test_log():
 
 def test_error_has_the_line_of_its_call():
     world, sheet, cut = make_scene()
-    assert "kiriWorld_Tick" in str(raises(kiri.KiriError, world.tick, -1.0))
-    assert "kiriSheet_Raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
-    assert "kiriCut_End" in str(raises(kiri.KiriError, cut.end))
-    assert "kiriCreateRectangle" in str(raises(kiri.KiriError, world.create_rectangle, -1.0, 1.0, 1, 1))
-    assert "kiriCreateWorld" in str(raises(kiri.KiriError, kiri.World, gravity=(0, 0, float("nan"))))
-    assert "closed" in str(raises(kiri.KiriError, (world.close(), world.tick)[1], 1 / 60))
+    tick = str(raises(kiri.KiriError, world.tick, -1.0))
+    assert tick == "World.tick: dt is not within 1e-6 and 10 s (KIRI_ERROR_ARGUMENT)"
+    assert str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0)).startswith("Sheet.raycast: ")
+    assert str(raises(kiri.KiriError, cut.end)).startswith("Cut.end: ")
+    made = str(raises(kiri.KiriError, world.create_rectangle, 1.0, 1.0, 1, 1, frameCount=-3))
+    assert made == "World.create_rectangle: frameCount is -3, not within 0 and 65536 (KIRI_ERROR_ARGUMENT)"
+    assert str(raises(kiri.KiriError, kiri.World, gravity=(0, 0, float("nan")))).startswith("World: gravity[2] is NaN")
+    assert str(raises(kiri.KiriError, kiri.fill_rectangle, 0, 1, 1, 1)).startswith("fill_rectangle: ")
+    closed = str(raises(kiri.KiriError, (world.close(), world.tick)[1], 1 / 60))
+    assert closed == "World.tick: the world is closed (KIRI_ERROR_ARGUMENT)"
 
 
 def test_error_has_the_line_of_its_thread():
@@ -508,8 +512,8 @@ def test_error_has_the_line_of_its_thread():
             others.extend(outcomes([in_thread(kiri.Frame(world, 1).state)]))
 
     world, sheet, _ = make_scene(log=log)
-    assert "kiriSheet_Raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
-    assert "kiriFrame_GetState" in str(others[0])
+    assert "Sheet.raycast" in str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0))
+    assert str(others[0]).startswith("Frame.state: ")
 
 
 def test_lengths_are_checked():
@@ -948,10 +952,10 @@ def test_recording():
     assert raises(kiri.KiriError, world.note, b"").result == kiri.KIRI_ERROR_ARGUMENT
     for broken in (b"", b"something else", recording[:-7], recording[:500]):
         error = raises(kiri.KiriError, list, kiri.World().replay(broken))
-        assert error.result == kiri.KIRI_ERROR_DATA and "kiriWorld_Replay" in str(error)
+        assert error.result == kiri.KIRI_ERROR_DATA and "World.replay" in str(error)
     recording[22] ^= 1  # of gravity
     error = raises(kiri.KiriError, list, kiri.World().replay(recording))
-    assert error.result == kiri.KIRI_ERROR_REPLAY and "kiriWorld_Tick in tick 1" in str(error)
+    assert error.result == kiri.KIRI_ERROR_REPLAY and "World.tick in tick 1" in str(error)
     assert kiri.World().sheets() == []
     raises(TypeError, world.note, 5)
     raises(TypeError, list, world.replay("text"))

@@ -352,8 +352,9 @@ class Call:
             return lines + [f"            return World.Text({call});", "        }"]
         if f["name"] == "kiriWorld_Tick":
             body.append("EndViews();")
-        checked = {None: f"World.CheckStatic({call})"}.get(
-            f["class"], f"{'' if self._world == 'this' else 'World.'}{'Check' if f.get('changes') else 'CheckRead'}({call})")
+        check = "Check" if f.get("changes") else "CheckRead" if f["class"] else "CheckStatic"
+        named = f"{f['class'] or 'Library'}.{f['method']}"
+        checked = f"{'' if f['class'] and self._world == 'this' else 'World.'}{check}({call}, \"{named}\")"
         late = getattr(self, "_late", [])
         body += self._fixed
         statement = f"{'result = ' if 'result' in (gives or '') else ''}{checked};"

@@ -535,11 +535,11 @@ class Call:
         call = f"sys::{self._f['name']}({', '.join(self._arguments)})"
         if self._f["returns"] == "const char*":
             return ["// SAFETY: texts of the library stay.", f"unsafe {{ text({call}) }}"]
-        checked = {True: "check({}, self)?", False: "check_read({})?"}[bool(self._f.get("changes"))]
-        if self._f["class"] != "World":
-            checked = checked.replace("self", "world")
-        if self._f["class"] is None:
-            checked = "fail({})?"
+        of = self._f["class"]
+        named = f"{of}::{self._s._method(self._f)}" if of else self._s._method(self._f)
+        checked = "fail({}, \"NAMED\")?" if of is None else "check_read({}, \"NAMED\")?" if not self._f.get("changes") else \
+            f"check({{}}, {'self' if of == 'World' else 'world'}, \"NAMED\")?"
+        checked = checked.replace("NAMED", named)
         call = checked.format(f"unsafe {{ {call} }}")
         if self._growing:
             return self._growing_body(call)

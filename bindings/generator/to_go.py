@@ -52,7 +52,7 @@ class Go:
             for value in enum["values"]:
                 lines.append(naming.comment(value["doc"], "\t// ") + f"\t{constant(value['name'])} {name} = {value['value']}")
             lines.append(f")\n\nvar names{name} = map[{name}]string{{")
-            lines += [f"\t{value['value']}: \"{value['name']}\"," for value in values.values()]
+            lines += [f"\t{value['value']}: \"{constant(value['name'])}\"," for value in values.values()]
             lines.append(f"}}\n\nfunc (v {name}) String() string {{ return names{name}[v] }}\n")
         return "\n".join(lines)
 
@@ -218,8 +218,8 @@ class Method:
             lines.append("w.epoch++")
         if function["class"]:
             lines.append(f"runtime.KeepAlive({self._world})")
-        world = self._world if function["class"] else "nil"
-        lines += [f"if err := failure({world}, \"{function['name']}\", result, {str(bool(function.get('changes'))).lower()}); err != nil {{",
+        world, of = self._world if function["class"] else "nil", function["class"]
+        lines += [f"if err := failure({world}, \"{of + '.' if of else ''}{self.name(function)}\", result, {str(bool(function.get('changes'))).lower()}); err != nil {{",
                   f"\treturn {failed}", "}", *self._after]
         values = [*self._values, *(["result == C.KIRI_PENDING"] if pends else []), "nil"]
         kinds = [*self._kinds, *(["bool"] if pends else []), "error"]

@@ -421,7 +421,8 @@ class Call:
         yield "}"
 
     def checked(self, called, static):
-        fail = f"fail({'null' if static else self.world}, $result, \"{self.function['name']}\");"
+        of = "" if static else f"{self.function['class']}."
+        fail = f"fail({'null' if static else self.world}, $result, \"{of}{camel(self.function['method'])}\");"
         check = ["if ($result < 0) {", f"    {fail}", "}"]
         body = []
         if self.function["name"] in ("kiriWorld_Tick", "kiriWorld_FinishCuts", "kiriWorld_Load", "kiriWorld_Restore",
@@ -469,7 +470,7 @@ WORLD = """    /** def: what differs from defaultWorldDef(); and log, clock and 
         const $result = wasm.kiriCreateWorld(scratch, scratch + {size});
         if ($result < 0) {{
             this._end();
-            fail(this, $result, "kiriCreateWorld");
+            fail(this, $result, "World");
         }}
         this._pointer = U32[(scratch + {size}) >> 2];
     }}

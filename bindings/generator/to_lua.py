@@ -247,7 +247,8 @@ class Method:
         lines = [f"local result = {call}"]
         if function["name"] in naming.ENDS_VIEWS:
             lines.append("passed(world)")
-        lines.append(f"if result < 0 then fail({'world' if function['class'] else 'nil'}, \"{function['name']}\", result, "
+        of = function["class"]
+        lines.append(f"if result < 0 then fail({'world' if of else 'nil'}, \"{of + ':' if of else ''}{self.name()}\", result, "
                      f"{'true' if function.get('changes') else 'false'}) end")
         lines += self._after
         lines.append(f"return {', '.join(self._returned)}" if self._returned else "return result == 1")

@@ -301,9 +301,8 @@ class Method:
         if not self._out:
             return [f"return {call}({', '.join(self._passed)})"]
         made = [f"structure = core.ffi.new('{self._out[0]['type']}*')"]
-        called = f"{call}({', '.join([*self._passed, 'structure'])})"
-        if function["returns"] == "kiriResult":
-            called = f"core.check({called})"
+        passed = ', '.join([*self._passed, 'structure'])
+        called = f"core.check({function['name']!r}, {passed})" if function["returns"] == "kiriResult" else f"{call}({passed})"
         return made + [called, "return core.record(structure[0])"]
 
 

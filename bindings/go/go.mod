@@ -1,3 +1,3 @@
-module kiri
+module example.com/kiri
 
 go 1.24

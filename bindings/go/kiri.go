@@ -44,19 +44,19 @@ const (
 )
 
 var namesResultCode = map[ResultCode]string{
-	0:   "KIRI_OK",
-	1:   "KIRI_PENDING",
-	-1:  "KIRI_ERROR_ARGUMENT",
-	-2:  "KIRI_ERROR_DEF",
-	-3:  "KIRI_ERROR_ID",
-	-4:  "KIRI_ERROR_MESH",
-	-5:  "KIRI_ERROR_STATE",
-	-6:  "KIRI_ERROR_MEMORY",
-	-7:  "KIRI_DIVERGED",
-	-8:  "KIRI_ERROR_LIMIT",
-	-9:  "KIRI_ERROR_BUILD",
-	-10: "KIRI_ERROR_DATA",
-	-11: "KIRI_ERROR_REPLAY",
+	0:   "Ok",
+	1:   "Pending",
+	-1:  "ErrArgument",
+	-2:  "ErrDef",
+	-3:  "ErrID",
+	-4:  "ErrMesh",
+	-5:  "ErrState",
+	-6:  "ErrMemory",
+	-7:  "Diverged",
+	-8:  "ErrLimit",
+	-9:  "ErrBuild",
+	-10: "ErrData",
+	-11: "ErrReplay",
 }
 
 func (v ResultCode) String() string { return namesResultCode[v] }
@@ -72,7 +72,7 @@ const (
 )
 
 var namesBudgetLimit = map[BudgetLimit]string{
-	16: "KIRI_LEAST_TRIANGLES",
+	16: "LeastTriangles",
 }
 
 func (v BudgetLimit) String() string { return namesBudgetLimit[v] }
@@ -84,7 +84,7 @@ const (
 )
 
 var namesNoteLimit = map[NoteLimit]string{
-	1048576: "KIRI_MOST_NOTE_BYTES",
+	1048576: "MostNoteBytes",
 }
 
 func (v NoteLimit) String() string { return namesNoteLimit[v] }
@@ -118,17 +118,17 @@ const (
 )
 
 var namesEventType = map[EventType]string{
-	1:  "KIRI_EVENT_CUT_FINISHED",
-	2:  "KIRI_EVENT_PIECE_OFF",
-	3:  "KIRI_EVENT_FRAME_ADDED",
-	4:  "KIRI_EVENT_DIVERGED",
-	5:  "KIRI_EVENT_DEFERRED",
-	6:  "KIRI_EVENT_PIN_BROKE",
-	7:  "KIRI_EVENT_PIECE_DETACHED",
-	8:  "KIRI_EVENT_SEAM_BROKE",
-	9:  "KIRI_EVENT_TEAR_BEGAN",
-	10: "KIRI_EVENT_TEAR_ENDED",
-	11: "KIRI_EVENT_STRAINED",
+	1:  "EventCutFinished",
+	2:  "EventPieceOff",
+	3:  "EventFrameAdded",
+	4:  "EventDiverged",
+	5:  "EventDeferred",
+	6:  "EventPinBroke",
+	7:  "EventPieceDetached",
+	8:  "EventSeamBroke",
+	9:  "EventTearBegan",
+	10: "EventTearEnded",
+	11: "EventStrained",
 }
 
 func (v EventType) String() string { return namesEventType[v] }
@@ -159,16 +159,16 @@ const (
 )
 
 var namesStage = map[Stage]string{
-	0: "KIRI_STAGE_CUT",
-	1: "KIRI_STAGE_GRID",
-	2: "KIRI_STAGE_REGIONS",
-	3: "KIRI_STAGE_SHAPE",
-	4: "KIRI_STAGE_SAMPLES",
-	5: "KIRI_STAGE_CONSTANTS",
-	6: "KIRI_STAGE_CONTACT",
-	7: "KIRI_STAGE_SOLVE",
-	8: "KIRI_STAGE_SKIN",
-	9: "KIRI_STAGE_COUNT",
+	0: "StageCut",
+	1: "StageGrid",
+	2: "StageRegions",
+	3: "StageShape",
+	4: "StageSamples",
+	5: "StageConstants",
+	6: "StageContact",
+	7: "StageSolve",
+	8: "StageSkin",
+	9: "StageCount",
 }
 
 func (v Stage) String() string { return namesStage[v] }
@@ -196,17 +196,17 @@ const (
 )
 
 var namesMaterialPreset = map[MaterialPreset]string{
-	0:  "KIRI_MATERIAL_PAPER",
-	1:  "KIRI_MATERIAL_COTTON",
-	2:  "KIRI_MATERIAL_RUBBER",
-	3:  "KIRI_MATERIAL_FOIL",
-	4:  "KIRI_MATERIAL_CARD",
-	5:  "KIRI_MATERIAL_SILK",
-	6:  "KIRI_MATERIAL_SHIRTING",
-	7:  "KIRI_MATERIAL_WOOL",
-	8:  "KIRI_MATERIAL_DENIM",
-	9:  "KIRI_MATERIAL_JERSEY",
-	10: "KIRI_MATERIAL_COUNT",
+	0:  "MaterialPaper",
+	1:  "MaterialCotton",
+	2:  "MaterialRubber",
+	3:  "MaterialFoil",
+	4:  "MaterialCard",
+	5:  "MaterialSilk",
+	6:  "MaterialShirting",
+	7:  "MaterialWool",
+	8:  "MaterialDenim",
+	9:  "MaterialJersey",
+	10: "MaterialCount",
 }
 
 func (v MaterialPreset) String() string { return namesMaterialPreset[v] }
@@ -221,10 +221,10 @@ const (
 )
 
 var namesQualityPreset = map[QualityPreset]string{
-	0: "KIRI_QUALITY_FAST",
-	1: "KIRI_QUALITY_BALANCED",
-	2: "KIRI_QUALITY_ACCURATE",
-	3: "KIRI_QUALITY_COUNT",
+	0: "QualityFast",
+	1: "QualityBalanced",
+	2: "QualityAccurate",
+	3: "QualityCount",
 }
 
 func (v QualityPreset) String() string { return namesQualityPreset[v] }
@@ -243,14 +243,14 @@ const (
 )
 
 var namesSetupPreset = map[SetupPreset]string{
-	0: "KIRI_SETUP_CURTAIN",
-	1: "KIRI_SETUP_PAPER",
-	2: "KIRI_SETUP_FLAG",
-	3: "KIRI_SETUP_RIBBON",
-	4: "KIRI_SETUP_RUBBER",
-	5: "KIRI_SETUP_CARD",
-	6: "KIRI_SETUP_FOIL",
-	7: "KIRI_SETUP_COUNT",
+	0: "SetupCurtain",
+	1: "SetupPaper",
+	2: "SetupFlag",
+	3: "SetupRibbon",
+	4: "SetupRubber",
+	5: "SetupCard",
+	6: "SetupFoil",
+	7: "SetupCount",
 }
 
 func (v SetupPreset) String() string { return namesSetupPreset[v] }
@@ -268,9 +268,9 @@ const (
 )
 
 var namesModel = map[Model]string{
-	0: "KIRI_MODEL_LINKS",
-	1: "KIRI_MODEL_AFFINE",
-	2: "KIRI_MODEL_POINTS",
+	0: "ModelLinks",
+	1: "ModelAffine",
+	2: "ModelPoints",
 }
 
 func (v Model) String() string { return namesModel[v] }
@@ -286,8 +286,8 @@ const (
 )
 
 var namesSkinning = map[Skinning]string{
-	0: "KIRI_SKINNING_LINEAR",
-	1: "KIRI_SKINNING_SMOOTH",
+	0: "SkinningLinear",
+	1: "SkinningSmooth",
 }
 
 func (v Skinning) String() string { return namesSkinning[v] }
@@ -303,8 +303,8 @@ const (
 )
 
 var namesTimeStepping = map[TimeStepping]string{
-	0: "KIRI_TIME_STEPPING_SECOND_ORDER",
-	1: "KIRI_TIME_STEPPING_EULER",
+	0: "TimeSteppingSecondOrder",
+	1: "TimeSteppingEuler",
 }
 
 func (v TimeStepping) String() string { return namesTimeStepping[v] }
@@ -319,9 +319,9 @@ const (
 )
 
 var namesPinType = map[PinType]string{
-	0: "KIRI_PIN_POINT",
-	1: "KIRI_PIN_HINGE",
-	2: "KIRI_PIN_CLAMP",
+	0: "PinPoint",
+	1: "PinHinge",
+	2: "PinClamp",
 }
 
 func (v PinType) String() string { return namesPinType[v] }
@@ -347,12 +347,12 @@ const (
 )
 
 var namesObstacleType = map[ObstacleType]string{
-	0: "KIRI_OBSTACLE_PLANE",
-	1: "KIRI_OBSTACLE_SPHERE",
-	2: "KIRI_OBSTACLE_CAPSULE",
-	3: "KIRI_OBSTACLE_BOX",
-	4: "KIRI_OBSTACLE_CYLINDER",
-	5: "KIRI_OBSTACLE_PRISM",
+	0: "ObstaclePlane",
+	1: "ObstacleSphere",
+	2: "ObstacleCapsule",
+	3: "ObstacleBox",
+	4: "ObstacleCylinder",
+	5: "ObstaclePrism",
 }
 
 func (v ObstacleType) String() string { return namesObstacleType[v] }
@@ -387,18 +387,18 @@ const (
 )
 
 var namesDrawFlag = map[DrawFlag]string{
-	1:    "KIRI_DRAW_TRIANGLES",
-	2:    "KIRI_DRAW_EDGES",
-	4:    "KIRI_DRAW_BORDERS",
-	8:    "KIRI_DRAW_FRAMES",
-	16:   "KIRI_DRAW_LINKS",
-	32:   "KIRI_DRAW_PINS",
-	64:   "KIRI_DRAW_CONTACTS",
-	128:  "KIRI_DRAW_BLADES",
-	256:  "KIRI_DRAW_BOXES",
-	512:  "KIRI_DRAW_OBSTACLES",
-	1024: "KIRI_DRAW_POINTS",
-	2047: "KIRI_DRAW_ALL",
+	1:    "DrawTriangles",
+	2:    "DrawEdges",
+	4:    "DrawBorders",
+	8:    "DrawFrames",
+	16:   "DrawLinks",
+	32:   "DrawPins",
+	64:   "DrawContacts",
+	128:  "DrawBlades",
+	256:  "DrawBoxes",
+	512:  "DrawObstacles",
+	1024: "DrawPoints",
+	2047: "DrawAll",
 }
 
 func (v DrawFlag) String() string { return namesDrawFlag[v] }
@@ -1354,7 +1354,7 @@ func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	result := C.kiriWorld_Tick(w.c, C.float(dt), C.int32_t(substeps))
 	w.epoch++
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_Tick", result, true); err != nil {
+	if err := failure(w, "World.Tick", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1375,7 +1375,7 @@ func (w *World) ShiftOrigin(origin [3]float32) error {
 	result := C.kiriWorld_ShiftOrigin(w.c, (*C.float)(unsafe.Pointer(&block.origin)))
 	poolWorldShiftOrigin.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_ShiftOrigin", result, true); err != nil {
+	if err := failure(w, "World.ShiftOrigin", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1395,7 +1395,7 @@ func (w *World) SetGravity(gravity [3]float32) error {
 	result := C.kiriWorld_SetGravity(w.c, (*C.float)(unsafe.Pointer(&block.gravity)))
 	poolWorldSetGravity.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
+	if err := failure(w, "World.SetGravity", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1408,7 +1408,7 @@ func (w *World) SetBudget(budget *Budget) error {
 	}
 	result := C.kiriWorld_SetBudget(w.c, (*C.kiriBudget)(unsafe.Pointer(budget)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_SetBudget", result, true); err != nil {
+	if err := failure(w, "World.SetBudget", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1428,7 +1428,7 @@ func (w *World) StateHash() (uint64, error) {
 	result := C.kiriWorld_GetStateHash(w.c, &block.hash)
 	answer := poolWorldGetStateHash.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_GetStateHash", result, false); err != nil {
+	if err := failure(w, "World.StateHash", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.hash), nil
@@ -1451,7 +1451,7 @@ again:
 	result := C.kiriWorld_GetSheets(w.c, unsafe.SliceData(sheets), room, &block.count)
 	answer := poolWorldGetSheets.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_GetSheets", result, false); err != nil {
+	if err := failure(w, "World.Sheets", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
@@ -1468,7 +1468,7 @@ func (w *World) Note(bytes []byte) error {
 	}
 	result := C.kiriWorld_Note(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int32_t(len(bytes)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_Note", result, true); err != nil {
+	if err := failure(w, "World.Note", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1483,7 +1483,7 @@ func (w *World) FinishCuts() error {
 	}
 	result := C.kiriWorld_FinishCuts(w.c)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_FinishCuts", result, true); err != nil {
+	if err := failure(w, "World.FinishCuts", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1499,7 +1499,7 @@ func (w *World) Load(bytes []byte) error {
 	}
 	result := C.kiriWorld_Load(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_Load", result, true); err != nil {
+	if err := failure(w, "World.Load", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1513,7 +1513,7 @@ func (w *World) Restore(bytes []byte) error {
 	}
 	result := C.kiriWorld_Restore(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_Restore", result, true); err != nil {
+	if err := failure(w, "World.Restore", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1534,7 +1534,7 @@ func (w *World) Events() (View[Event], error) {
 	result := C.kiriWorld_GetEvents(w.c, &block.events, &block.count)
 	answer := poolWorldGetEvents.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_GetEvents", result, false); err != nil {
+	if err := failure(w, "World.Events", result, false); err != nil {
 		return made0, err
 	}
 	return viewOf[Event](w, unsafe.Pointer(answer.events), int(answer.count)), nil
@@ -1554,7 +1554,7 @@ func (w *World) Profile() (Profile, error) {
 	result := C.kiriWorld_GetProfile(w.c, (*C.kiriProfile)(unsafe.Pointer(&block.profile)))
 	answer := poolWorldGetProfile.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_GetProfile", result, false); err != nil {
+	if err := failure(w, "World.Profile", result, false); err != nil {
 		return made0, err
 	}
 	return answer.profile, nil
@@ -1575,7 +1575,7 @@ func GetMaterial(preset MaterialPreset) (Material, error) {
 	block := poolGetMaterial.take()
 	result := C.kiriGetMaterial(C.int32_t(preset), (*C.kiriMaterial)(unsafe.Pointer(&block.material)))
 	answer := poolGetMaterial.give(block)
-	if err := failure(nil, "kiriGetMaterial", result, false); err != nil {
+	if err := failure(nil, "GetMaterial", result, false); err != nil {
 		return made0, err
 	}
 	return answer.material, nil
@@ -1591,7 +1591,7 @@ func GetQuality(preset QualityPreset) (Quality, error) {
 	block := poolGetQuality.take()
 	result := C.kiriGetQuality(C.int32_t(preset), (*C.kiriQuality)(unsafe.Pointer(&block.quality)))
 	answer := poolGetQuality.give(block)
-	if err := failure(nil, "kiriGetQuality", result, false); err != nil {
+	if err := failure(nil, "GetQuality", result, false); err != nil {
 		return made0, err
 	}
 	return answer.quality, nil
@@ -1607,7 +1607,7 @@ func GetSetup(preset SetupPreset, width float32, height float32) (Setup, error) 
 	block := poolGetSetup.take()
 	result := C.kiriGetSetup(C.int32_t(preset), C.float(width), C.float(height), (*C.kiriSetup)(unsafe.Pointer(&block.setup)))
 	answer := poolGetSetup.give(block)
-	if err := failure(nil, "kiriGetSetup", result, false); err != nil {
+	if err := failure(nil, "GetSetup", result, false); err != nil {
 		return made0, err
 	}
 	return answer.setup, nil
@@ -1645,7 +1645,7 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	result := C.kiriCreateSheet(w.c, def.toC(&pinner), &block.sheet)
 	answer := poolWorldCreateSheet.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriCreateSheet", result, true); err != nil {
+	if err := failure(w, "World.CreateSheet", result, true); err != nil {
 		return made0, err
 	}
 	return Sheet{w, SheetID(answer.sheet)}, nil
@@ -1659,7 +1659,7 @@ func (s Sheet) Destroy() error {
 	}
 	result := C.kiriDestroySheet(s.World.c, C.kiriSheet(s.ID))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriDestroySheet", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Destroy", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1686,7 +1686,7 @@ func (w *World) CreateRectangle(width float32, height float32, columns int32, ro
 	result := C.kiriCreateRectangle(w.c, C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows), inC, &block.sheet)
 	answer := poolWorldCreateRectangle.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriCreateRectangle", result, true); err != nil {
+	if err := failure(w, "World.CreateRectangle", result, true); err != nil {
 		return made0, err
 	}
 	return Sheet{w, SheetID(answer.sheet)}, nil
@@ -1707,7 +1707,7 @@ func (s Sheet) Settings() (SheetSettings, error) {
 	result := C.kiriSheet_GetSettings(s.World.c, C.kiriSheet(s.ID), (*C.kiriSheetSettings)(unsafe.Pointer(&block.settings)))
 	answer := poolSheetGetSettings.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetSettings", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Settings", result, false); err != nil {
 		return made0, err
 	}
 	return answer.settings, nil
@@ -1721,7 +1721,7 @@ func (s Sheet) SetSettings(settings *SheetSettings) error {
 	}
 	result := C.kiriSheet_SetSettings(s.World.c, C.kiriSheet(s.ID), (*C.kiriSheetSettings)(unsafe.Pointer(settings)))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetSettings", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetSettings", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1743,7 +1743,7 @@ func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
 	result := C.kiriCreateFoldedSheet(w.c, def.toC(&pinner), (*C.kiriFold)(unsafe.Pointer(unsafe.SliceData(folds))), C.int32_t(len(folds)), &block.sheet)
 	answer := poolWorldCreateFoldedSheet.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriCreateFoldedSheet", result, true); err != nil {
+	if err := failure(w, "World.CreateFoldedSheet", result, true); err != nil {
 		return made0, err
 	}
 	return Sheet{w, SheetID(answer.sheet)}, nil
@@ -1764,7 +1764,7 @@ func (s Sheet) AddFold(fold *Fold) (int32, error) {
 	result := C.kiriSheet_AddFold(s.World.c, C.kiriSheet(s.ID), (*C.kiriFold)(unsafe.Pointer(fold)), &block.index)
 	answer := poolSheetAddFold.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_AddFold", result, true); err != nil {
+	if err := failure(s.World, "Sheet.AddFold", result, true); err != nil {
 		return made0, err
 	}
 	return int32(answer.index), nil
@@ -1784,7 +1784,7 @@ func (s Sheet) Fold(index int32) (FoldState, error) {
 	result := C.kiriSheet_GetFold(s.World.c, C.kiriSheet(s.ID), C.int32_t(index), (*C.kiriFoldState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetFold.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetFold", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Fold", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -1797,7 +1797,7 @@ func (s Sheet) SetFold(index int32, stiffness float32, restAngle float32) error 
 	}
 	result := C.kiriSheet_SetFold(s.World.c, C.kiriSheet(s.ID), C.int32_t(index), C.float(stiffness), C.float(restAngle))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetFold", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetFold", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1817,7 +1817,7 @@ func (s Sheet) Mesh() (Mesh, error) {
 	result := C.kiriSheet_GetMesh(s.World.c, C.kiriSheet(s.ID), &block.mesh)
 	answer := poolSheetGetMesh.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetMesh", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Mesh", result, false); err != nil {
 		return made0, err
 	}
 	return viewMesh(s.World, &answer.mesh), nil
@@ -1837,7 +1837,7 @@ func (s Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
 	result := C.kiriSheet_GetDirty(s.World.c, C.kiriSheet(s.ID), C.uint32_t(sinceRevision), (*C.kiriDirty)(unsafe.Pointer(&block.dirty)))
 	answer := poolSheetGetDirty.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetDirty", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Dirty", result, false); err != nil {
 		return made0, err
 	}
 	return answer.dirty, nil
@@ -1857,7 +1857,7 @@ func (s Sheet) Solid(thickness float32) (Solid, error) {
 	result := C.kiriSheet_GetSolid(s.World.c, C.kiriSheet(s.ID), C.float(thickness), &block.solid)
 	answer := poolSheetGetSolid.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetSolid", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Solid", result, true); err != nil {
 		return made0, err
 	}
 	return viewSolid(s.World, &answer.solid), nil
@@ -1878,7 +1878,7 @@ func (s Sheet) CollisionPoints() (View[[3]float32], error) {
 	result := C.kiriSheet_GetCollisionPoints(s.World.c, C.kiriSheet(s.ID), &block.positions, &block.count)
 	answer := poolSheetGetCollisionPoints.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetCollisionPoints", result, false); err != nil {
+	if err := failure(s.World, "Sheet.CollisionPoints", result, false); err != nil {
 		return made0, err
 	}
 	return viewOf[[3]float32](s.World, unsafe.Pointer(answer.positions), int(answer.count)), nil
@@ -1898,7 +1898,7 @@ func (s Sheet) Counts() (Counts, error) {
 	result := C.kiriSheet_GetCounts(s.World.c, C.kiriSheet(s.ID), (*C.kiriCounts)(unsafe.Pointer(&block.counts)))
 	answer := poolSheetGetCounts.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetCounts", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Counts", result, false); err != nil {
 		return made0, err
 	}
 	return answer.counts, nil
@@ -1918,7 +1918,7 @@ func (s Sheet) Totals() (Totals, error) {
 	result := C.kiriSheet_GetTotals(s.World.c, C.kiriSheet(s.ID), (*C.kiriTotals)(unsafe.Pointer(&block.totals)))
 	answer := poolSheetGetTotals.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetTotals", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Totals", result, false); err != nil {
 		return made0, err
 	}
 	return answer.totals, nil
@@ -1938,7 +1938,7 @@ func (s Sheet) EstimateError() (float64, error) {
 	result := C.kiriSheet_EstimateError(s.World.c, C.kiriSheet(s.ID), &block.relative)
 	answer := poolSheetEstimateError.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_EstimateError", result, false); err != nil {
+	if err := failure(s.World, "Sheet.EstimateError", result, false); err != nil {
 		return made0, err
 	}
 	return float64(answer.relative), nil
@@ -1958,7 +1958,7 @@ func (s Sheet) IsAwake() (bool, error) {
 	result := C.kiriSheet_IsAwake(s.World.c, C.kiriSheet(s.ID), &block.awake)
 	answer := poolSheetIsAwake.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_IsAwake", result, false); err != nil {
+	if err := failure(s.World, "Sheet.IsAwake", result, false); err != nil {
 		return made0, err
 	}
 	return answer.awake != 0, nil
@@ -1971,7 +1971,7 @@ func (s Sheet) Wake() error {
 	}
 	result := C.kiriSheet_Wake(s.World.c, C.kiriSheet(s.ID))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_Wake", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Wake", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -1994,7 +1994,7 @@ func (s Sheet) Transform(rotation [9]float32, translation [3]float32) error {
 	result := C.kiriSheet_Transform(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.rotation)), (*C.float)(unsafe.Pointer(&block.translation)))
 	poolSheetTransform.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_Transform", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Transform", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2018,7 +2018,7 @@ func (s Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) erro
 	result := C.kiriSheet_SetVelocity(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolSheetSetVelocity.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetVelocity", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetVelocity", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2042,7 +2042,7 @@ func (f Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32)
 	result := C.kiriFrame_SetPieceVelocity(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolFrameSetPieceVelocity.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_SetPieceVelocity", result, true); err != nil {
+	if err := failure(f.World, "Frame.SetPieceVelocity", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2057,7 +2057,7 @@ func (s Sheet) SetUserData(data uint64) error {
 	}
 	result := C.kiriSheet_SetUserData(s.World.c, C.kiriSheet(s.ID), C.uint64_t(data))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetUserData", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetUserData", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2079,7 +2079,7 @@ func (s Sheet) UserData() (uint64, error) {
 	result := C.kiriSheet_GetUserData(s.World.c, C.kiriSheet(s.ID), &block.data)
 	answer := poolSheetGetUserData.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetUserData", result, false); err != nil {
+	if err := failure(s.World, "Sheet.UserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -2094,7 +2094,7 @@ func (p Pin) SetUserData(data uint64) error {
 	}
 	result := C.kiriPin_SetUserData(p.World.c, C.kiriPin(p.ID), C.uint64_t(data))
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_SetUserData", result, true); err != nil {
+	if err := failure(p.World, "Pin.SetUserData", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2116,7 +2116,7 @@ func (p Pin) UserData() (uint64, error) {
 	result := C.kiriPin_GetUserData(p.World.c, C.kiriPin(p.ID), &block.data)
 	answer := poolPinGetUserData.give(block)
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_GetUserData", result, false); err != nil {
+	if err := failure(p.World, "Pin.UserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -2131,7 +2131,7 @@ func (f Frame) SetPieceUserData(data uint64) error {
 	}
 	result := C.kiriFrame_SetPieceUserData(f.World.c, C.kiriFrame(f.ID), C.uint64_t(data))
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_SetPieceUserData", result, true); err != nil {
+	if err := failure(f.World, "Frame.SetPieceUserData", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2153,7 +2153,7 @@ func (f Frame) PieceUserData() (uint64, error) {
 	result := C.kiriFrame_GetPieceUserData(f.World.c, C.kiriFrame(f.ID), &block.data)
 	answer := poolFrameGetPieceUserData.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_GetPieceUserData", result, false); err != nil {
+	if err := failure(f.World, "Frame.PieceUserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -2177,7 +2177,7 @@ func (s Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance floa
 	result := C.kiriSheet_Raycast(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), (*C.kiriHit)(unsafe.Pointer(&block.hit)))
 	answer := poolSheetRaycast.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_Raycast", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Raycast", result, false); err != nil {
 		return made0, err
 	}
 	return answer.hit, nil
@@ -2203,7 +2203,7 @@ func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance flo
 	result := C.kiriWorld_Raycast(w.c, (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), &block.sheet, (*C.kiriHit)(unsafe.Pointer(&block.hit)))
 	answer := poolWorldRaycast.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_Raycast", result, false); err != nil {
+	if err := failure(w, "World.Raycast", result, false); err != nil {
 		return made0, made1, err
 	}
 	return Sheet{w, SheetID(answer.sheet)}, answer.hit, nil
@@ -2225,7 +2225,7 @@ func (s Sheet) Point(restPoint [2]float32) (PointState, error) {
 	result := C.kiriSheet_GetPoint(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.kiriPointState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetPoint.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetPoint", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Point", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2245,7 +2245,7 @@ func (s Sheet) Piece(piece int32) (PieceState, error) {
 	result := C.kiriSheet_GetPiece(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), (*C.kiriPieceState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetPiece.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetPiece", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Piece", result, true); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2265,7 +2265,7 @@ func (s Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 	result := C.kiriSheet_GetPieceMesh(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), &block.mesh)
 	answer := poolSheetGetPieceMesh.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetPieceMesh", result, true); err != nil {
+	if err := failure(s.World, "Sheet.PieceMesh", result, true); err != nil {
 		return made0, err
 	}
 	return viewPieceMesh(s.World, &answer.mesh), nil
@@ -2286,7 +2286,7 @@ func (s Sheet) PieceFrames(piece int32) (View[FrameID], error) {
 	result := C.kiriSheet_GetPieceFrames(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), &block.frames, &block.count)
 	answer := poolSheetGetPieceFrames.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetPieceFrames", result, true); err != nil {
+	if err := failure(s.World, "Sheet.PieceFrames", result, true); err != nil {
 		return made0, err
 	}
 	return viewOf[FrameID](s.World, unsafe.Pointer(answer.frames), int(answer.count)), nil
@@ -2306,7 +2306,7 @@ func (f Frame) Piece() (int32, error) {
 	result := C.kiriFrame_GetPiece(f.World.c, C.kiriFrame(f.ID), &block.piece)
 	answer := poolFrameGetPiece.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_GetPiece", result, false); err != nil {
+	if err := failure(f.World, "Frame.Piece", result, false); err != nil {
 		return made0, err
 	}
 	return int32(answer.piece), nil
@@ -2330,7 +2330,7 @@ func (f Frame) DetachPiece() (Sheet, error) {
 	result := C.kiriFrame_DetachPiece(f.World.c, C.kiriFrame(f.ID), &block.detached)
 	answer := poolFrameDetachPiece.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_DetachPiece", result, true); err != nil {
+	if err := failure(f.World, "Frame.DetachPiece", result, true); err != nil {
 		return made0, err
 	}
 	return Sheet{f.World, SheetID(answer.detached)}, nil
@@ -2344,7 +2344,7 @@ func (f Frame) DestroyPiece() (bool, error) {
 	}
 	result := C.kiriFrame_DestroyPiece(f.World.c, C.kiriFrame(f.ID))
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_DestroyPiece", result, true); err != nil {
+	if err := failure(f.World, "Frame.DestroyPiece", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2362,7 +2362,7 @@ func (w *World) DetachPieces(frames []Frame) ([]Sheet, error) {
 	detached := make([]C.kiriSheet, len(ids))
 	result := C.kiriWorld_DetachPieces(w.c, (*C.kiriFrame)(unsafe.Pointer(unsafe.SliceData(ids))), C.int32_t(len(ids)), unsafe.SliceData(detached))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_DetachPieces", result, true); err != nil {
+	if err := failure(w, "World.DetachPieces", result, true); err != nil {
 		return made0, err
 	}
 	return things[Sheet](w, detached), nil
@@ -2378,7 +2378,7 @@ func (w *World) DestroyPieces(frames []Frame) (bool, error) {
 	ids := idsOf(frames)
 	result := C.kiriWorld_DestroyPieces(w.c, (*C.kiriFrame)(unsafe.Pointer(unsafe.SliceData(ids))), C.int32_t(len(ids)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_DestroyPieces", result, true); err != nil {
+	if err := failure(w, "World.DestroyPieces", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2398,7 +2398,7 @@ func (s Sheet) DropCrumbs(area float32) (int, error) {
 	result := C.kiriSheet_DropCrumbs(s.World.c, C.kiriSheet(s.ID), C.float(area), &block.count)
 	answer := poolSheetDropCrumbs.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_DropCrumbs", result, true); err != nil {
+	if err := failure(s.World, "Sheet.DropCrumbs", result, true); err != nil {
 		return made0, err
 	}
 	return int(answer.count), nil
@@ -2423,7 +2423,7 @@ func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	result := C.kiriBeginCut(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), &block.cut)
 	answer := poolSheetBeginCut.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriBeginCut", result, true); err != nil {
+	if err := failure(s.World, "Sheet.BeginCut", result, true); err != nil {
 		return made0, err
 	}
 	return Cut{s.World, CutID(answer.cut)}, nil
@@ -2439,7 +2439,7 @@ func (c Cut) Extend(restPoints [][2]float32) error {
 	}
 	result := C.kiriCut_Extend(c.World.c, C.kiriCut(c.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)))
 	runtime.KeepAlive(c.World)
-	if err := failure(c.World, "kiriCut_Extend", result, true); err != nil {
+	if err := failure(c.World, "Cut.Extend", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2455,7 +2455,7 @@ func (c Cut) End() error {
 	}
 	result := C.kiriCut_End(c.World.c, C.kiriCut(c.ID))
 	runtime.KeepAlive(c.World)
-	if err := failure(c.World, "kiriCut_End", result, true); err != nil {
+	if err := failure(c.World, "Cut.End", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2478,7 +2478,7 @@ func (s Sheet) Slice(blade [12]float32) (Cut, error) {
 	result := C.kiriSheet_Slice(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.blade)), &block.cut)
 	answer := poolSheetSlice.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_Slice", result, true); err != nil {
+	if err := failure(s.World, "Sheet.Slice", result, true); err != nil {
 		return made0, err
 	}
 	return Cut{s.World, CutID(answer.cut)}, nil
@@ -2491,7 +2491,7 @@ func (s Sheet) SetTearing(tearing *Tearing) error {
 	}
 	result := C.kiriSheet_SetTearing(s.World.c, C.kiriSheet(s.ID), (*C.kiriTearing)(unsafe.Pointer(tearing)))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetTearing", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetTearing", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2511,7 +2511,7 @@ func (s Sheet) Tearing() (Tearing, error) {
 	result := C.kiriSheet_GetTearing(s.World.c, C.kiriSheet(s.ID), (*C.kiriTearing)(unsafe.Pointer(&block.tearing)))
 	answer := poolSheetGetTearing.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetTearing", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Tearing", result, false); err != nil {
 		return made0, err
 	}
 	return answer.tearing, nil
@@ -2526,7 +2526,7 @@ func (s Sheet) SetTearLine(restPoints [][2]float32, factor float32) error {
 	}
 	result := C.kiriSheet_SetTearLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)), C.float(factor))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetTearLine", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetTearLine", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2548,7 +2548,7 @@ func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 	result := C.kiriBeginBlade(w.c, C.kiriSheet(sheet.ID), &block.blade)
 	answer := poolWorldBeginBlade.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriBeginBlade", result, true); err != nil {
+	if err := failure(w, "World.BeginBlade", result, true); err != nil {
 		return made0, err
 	}
 	return Blade{w, BladeID(answer.blade)}, nil
@@ -2571,7 +2571,7 @@ func (b Blade) MoveEdge(from [3]float32, to [3]float32) error {
 	result := C.kiriBlade_MoveEdge(b.World.c, C.kiriBlade(b.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)))
 	poolBladeMoveEdge.give(block)
 	runtime.KeepAlive(b.World)
-	if err := failure(b.World, "kiriBlade_MoveEdge", result, true); err != nil {
+	if err := failure(b.World, "Blade.MoveEdge", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2594,7 +2594,7 @@ func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) 
 	result := C.kiriBlade_MoveRay(b.World.c, C.kiriBlade(b.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(length))
 	poolBladeMoveRay.give(block)
 	runtime.KeepAlive(b.World)
-	if err := failure(b.World, "kiriBlade_MoveRay", result, true); err != nil {
+	if err := failure(b.World, "Blade.MoveRay", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2608,7 +2608,7 @@ func (b Blade) End() error {
 	}
 	result := C.kiriBlade_End(b.World.c, C.kiriBlade(b.ID))
 	runtime.KeepAlive(b.World)
-	if err := failure(b.World, "kiriBlade_End", result, true); err != nil {
+	if err := failure(b.World, "Blade.End", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2631,7 +2631,7 @@ again:
 	result := C.kiriSheet_GetFrames(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(frames), room, &block.count)
 	answer := poolSheetGetFrames.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetFrames", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Frames", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
@@ -2649,7 +2649,7 @@ func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
 	}
 	result := C.kiriFrame_Hold(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_Hold", result, true); err != nil {
+	if err := failure(f.World, "Frame.Hold", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2670,7 +2670,7 @@ func (f Frame) State() (FrameState, error) {
 	result := C.kiriFrame_GetState(f.World.c, C.kiriFrame(f.ID), (*C.kiriFrameState)(unsafe.Pointer(&block.state)))
 	answer := poolFrameGetState.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_GetState", result, false); err != nil {
+	if err := failure(f.World, "Frame.State", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2693,7 +2693,7 @@ func (f Frame) Reaction() ([3]float64, [3]float64, error) {
 	result := C.kiriFrame_GetReaction(f.World.c, C.kiriFrame(f.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
 	answer := poolFrameGetReaction.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_GetReaction", result, false); err != nil {
+	if err := failure(f.World, "Frame.Reaction", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.force, answer.torque, nil
@@ -2715,7 +2715,7 @@ func (f Frame) ApplyForce(force [3]float32, torque [3]float32) error {
 	result := C.kiriFrame_ApplyForce(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
 	poolFrameApplyForce.give(block)
 	runtime.KeepAlive(f.World)
-	if err := failure(f.World, "kiriFrame_ApplyForce", result, true); err != nil {
+	if err := failure(f.World, "Frame.ApplyForce", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2739,7 +2739,7 @@ func (s Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]floa
 	result := C.kiriSheet_ApplyForce(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
 	poolSheetApplyForce.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_ApplyForce", result, true); err != nil {
+	if err := failure(s.World, "Sheet.ApplyForce", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2764,7 +2764,7 @@ func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]f
 	result := C.kiriSheet_ApplyLineLoad(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), (*C.float)(unsafe.Pointer(&block.forcePerLength)))
 	poolSheetApplyLineLoad.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_ApplyLineLoad", result, true); err != nil {
+	if err := failure(s.World, "Sheet.ApplyLineLoad", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2777,7 +2777,7 @@ func (s Sheet) ApplyPressure(pressure float32) error {
 	}
 	result := C.kiriSheet_ApplyPressure(s.World.c, C.kiriSheet(s.ID), C.float(pressure))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_ApplyPressure", result, true); err != nil {
+	if err := failure(s.World, "Sheet.ApplyPressure", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2800,7 +2800,7 @@ func (s Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) error {
 	result := C.kiriSheet_ApplyImpulse(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.impulse)))
 	poolSheetApplyImpulse.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_ApplyImpulse", result, true); err != nil {
+	if err := failure(s.World, "Sheet.ApplyImpulse", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2813,7 +2813,7 @@ func (s Sheet) SetWind(wind *Wind) error {
 	}
 	result := C.kiriSheet_SetWind(s.World.c, C.kiriSheet(s.ID), (*C.kiriWind)(unsafe.Pointer(wind)))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetWind", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetWind", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2845,7 +2845,7 @@ func (s Sheet) CreatePin(def *PinDef) (Pin, error) {
 	result := C.kiriCreatePin(s.World.c, C.kiriSheet(s.ID), (*C.kiriPinDef)(unsafe.Pointer(def)), &block.pin)
 	answer := poolSheetCreatePin.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriCreatePin", result, true); err != nil {
+	if err := failure(s.World, "Sheet.CreatePin", result, true); err != nil {
 		return made0, err
 	}
 	return Pin{s.World, PinID(answer.pin)}, nil
@@ -2858,7 +2858,7 @@ func (p Pin) Destroy() error {
 	}
 	result := C.kiriDestroyPin(p.World.c, C.kiriPin(p.ID))
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriDestroyPin", result, true); err != nil {
+	if err := failure(p.World, "Pin.Destroy", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2883,7 +2883,7 @@ func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	result := C.kiriSheet_ClampLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.clamp)
 	answer := poolSheetClampLine.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_ClampLine", result, true); err != nil {
+	if err := failure(s.World, "Sheet.ClampLine", result, true); err != nil {
 		return made0, err
 	}
 	return Pin{s.World, PinID(answer.clamp)}, nil
@@ -2908,7 +2908,7 @@ func (s Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	result := C.kiriSheet_HingeLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.hinge)
 	answer := poolSheetHingeLine.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_HingeLine", result, true); err != nil {
+	if err := failure(s.World, "Sheet.HingeLine", result, true); err != nil {
 		return made0, err
 	}
 	return Pin{s.World, PinID(answer.hinge)}, nil
@@ -2930,7 +2930,7 @@ func (p Pin) SetTarget(target [3]float32) error {
 	result := C.kiriPin_SetTarget(p.World.c, C.kiriPin(p.ID), (*C.float)(unsafe.Pointer(&block.target)))
 	poolPinSetTarget.give(block)
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_SetTarget", result, true); err != nil {
+	if err := failure(p.World, "Pin.SetTarget", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2954,7 +2954,7 @@ func (p Pin) SetPose(target [3]float32, rotation [9]float32) error {
 	result := C.kiriPin_SetPose(p.World.c, C.kiriPin(p.ID), (*C.float)(unsafe.Pointer(&block.target)), (*C.float)(unsafe.Pointer(&block.rotation)))
 	poolPinSetPose.give(block)
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_SetPose", result, true); err != nil {
+	if err := failure(p.World, "Pin.SetPose", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2967,7 +2967,7 @@ func (p Pin) SetBreakForce(breakForce float32) error {
 	}
 	result := C.kiriPin_SetBreakForce(p.World.c, C.kiriPin(p.ID), C.float(breakForce))
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_SetBreakForce", result, true); err != nil {
+	if err := failure(p.World, "Pin.SetBreakForce", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -2988,7 +2988,7 @@ func (p Pin) State() (PinState, error) {
 	result := C.kiriPin_GetState(p.World.c, C.kiriPin(p.ID), (*C.kiriPinState)(unsafe.Pointer(&block.state)))
 	answer := poolPinGetState.give(block)
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_GetState", result, false); err != nil {
+	if err := failure(p.World, "Pin.State", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -3011,7 +3011,7 @@ func (p Pin) Reaction() ([3]float64, [3]float64, error) {
 	result := C.kiriPin_GetReaction(p.World.c, C.kiriPin(p.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
 	answer := poolPinGetReaction.give(block)
 	runtime.KeepAlive(p.World)
-	if err := failure(p.World, "kiriPin_GetReaction", result, false); err != nil {
+	if err := failure(p.World, "Pin.Reaction", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.force, answer.torque, nil
@@ -3034,7 +3034,7 @@ again:
 	result := C.kiriSheet_GetPins(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(pins), room, &block.count)
 	answer := poolSheetGetPins.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetPins", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Pins", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
@@ -3076,7 +3076,7 @@ func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 	result := C.kiriCreateSeam(w.c, def.toC(&pinner), &block.seam)
 	answer := poolWorldCreateSeam.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriCreateSeam", result, true); err != nil {
+	if err := failure(w, "World.CreateSeam", result, true); err != nil {
 		return made0, err
 	}
 	return Seam{w, SeamID(answer.seam)}, nil
@@ -3090,7 +3090,7 @@ func (s Seam) Destroy() error {
 	}
 	result := C.kiriDestroySeam(s.World.c, C.kiriSeam(s.ID))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriDestroySeam", result, true); err != nil {
+	if err := failure(s.World, "Seam.Destroy", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3104,7 +3104,7 @@ func (s Seam) SetHinge(stiffness float32, restAngle float32) error {
 	}
 	result := C.kiriSeam_SetHinge(s.World.c, C.kiriSeam(s.ID), C.float(stiffness), C.float(restAngle))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSeam_SetHinge", result, true); err != nil {
+	if err := failure(s.World, "Seam.SetHinge", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3124,7 +3124,7 @@ func (s Seam) Stitch(index int32) (Stitch, error) {
 	result := C.kiriSeam_GetStitch(s.World.c, C.kiriSeam(s.ID), C.int32_t(index), (*C.kiriStitch)(unsafe.Pointer(&block.stitch)))
 	answer := poolSeamGetStitch.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSeam_GetStitch", result, false); err != nil {
+	if err := failure(s.World, "Seam.Stitch", result, false); err != nil {
 		return made0, err
 	}
 	return answer.stitch, nil
@@ -3144,7 +3144,7 @@ func (s Seam) Count() (int32, error) {
 	result := C.kiriSeam_GetCount(s.World.c, C.kiriSeam(s.ID), &block.stitches)
 	answer := poolSeamGetCount.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSeam_GetCount", result, false); err != nil {
+	if err := failure(s.World, "Seam.Count", result, false); err != nil {
 		return made0, err
 	}
 	return int32(answer.stitches), nil
@@ -3167,7 +3167,7 @@ again:
 	result := C.kiriWorld_GetSeams(w.c, unsafe.SliceData(seams), room, &block.count)
 	answer := poolWorldGetSeams.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_GetSeams", result, false); err != nil {
+	if err := failure(w, "World.Seams", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
@@ -3184,7 +3184,7 @@ func (s Sheet) SetContacts(contacts []Contact) error {
 	}
 	result := C.kiriSheet_SetContacts(s.World.c, C.kiriSheet(s.ID), (*C.kiriContact)(unsafe.Pointer(unsafe.SliceData(contacts))), C.int32_t(len(contacts)))
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_SetContacts", result, true); err != nil {
+	if err := failure(s.World, "Sheet.SetContacts", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3205,7 +3205,7 @@ func (s Sheet) ContactForces() (View[ContactForce], error) {
 	result := C.kiriSheet_GetContactForces(s.World.c, C.kiriSheet(s.ID), &block.forces, &block.count)
 	answer := poolSheetGetContactForces.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetContactForces", result, false); err != nil {
+	if err := failure(s.World, "Sheet.ContactForces", result, false); err != nil {
 		return made0, err
 	}
 	return viewOf[ContactForce](s.World, unsafe.Pointer(answer.forces), int(answer.count)), nil
@@ -3241,7 +3241,7 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	result := C.kiriCreateObstacle(w.c, def.toC(&pinner), &block.obstacle)
 	answer := poolWorldCreateObstacle.give(block)
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriCreateObstacle", result, true); err != nil {
+	if err := failure(w, "World.CreateObstacle", result, true); err != nil {
 		return made0, err
 	}
 	return Obstacle{w, ObstacleID(answer.obstacle)}, nil
@@ -3254,7 +3254,7 @@ func (o Obstacle) Destroy() error {
 	}
 	result := C.kiriDestroyObstacle(o.World.c, C.kiriObstacle(o.ID))
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriDestroyObstacle", result, true); err != nil {
+	if err := failure(o.World, "Obstacle.Destroy", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3276,7 +3276,7 @@ func (o Obstacle) SetPose(position [3]float32, rotation [9]float32) error {
 	result := C.kiriObstacle_SetPose(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.position)), (*C.float)(unsafe.Pointer(&block.rotation)))
 	poolObstacleSetPose.give(block)
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriObstacle_SetPose", result, true); err != nil {
+	if err := failure(o.World, "Obstacle.SetPose", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3298,7 +3298,7 @@ func (o Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) e
 	result := C.kiriObstacle_SetVelocity(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolObstacleSetVelocity.give(block)
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriObstacle_SetVelocity", result, true); err != nil {
+	if err := failure(o.World, "Obstacle.SetVelocity", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3318,7 +3318,7 @@ func (o Obstacle) SetSurfaceVelocity(velocity [3]float32) error {
 	result := C.kiriObstacle_SetSurfaceVelocity(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.velocity)))
 	poolObstacleSetSurfaceVelocity.give(block)
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriObstacle_SetSurfaceVelocity", result, true); err != nil {
+	if err := failure(o.World, "Obstacle.SetSurfaceVelocity", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3340,7 +3340,7 @@ func (o Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]floa
 	result := C.kiriObstacle_SetMass(o.World.c, C.kiriObstacle(o.ID), C.float(mass), (*C.float)(unsafe.Pointer(&block.inertia)), (*C.float)(unsafe.Pointer(&block.centerOfMass)))
 	poolObstacleSetMass.give(block)
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriObstacle_SetMass", result, true); err != nil {
+	if err := failure(o.World, "Obstacle.SetMass", result, true); err != nil {
 		return err
 	}
 	return nil
@@ -3360,7 +3360,7 @@ func (o Obstacle) State() (ObstacleState, error) {
 	result := C.kiriObstacle_GetState(o.World.c, C.kiriObstacle(o.ID), (*C.kiriObstacleState)(unsafe.Pointer(&block.state)))
 	answer := poolObstacleGetState.give(block)
 	runtime.KeepAlive(o.World)
-	if err := failure(o.World, "kiriObstacle_GetState", result, false); err != nil {
+	if err := failure(o.World, "Obstacle.State", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -3382,7 +3382,7 @@ func (s Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	result := C.kiriSheet_GetReach(s.World.c, C.kiriSheet(s.ID), C.float(dt), (*C.float)(unsafe.Pointer(&block.lower)), (*C.float)(unsafe.Pointer(&block.upper)))
 	answer := poolSheetGetReach.give(block)
 	runtime.KeepAlive(s.World)
-	if err := failure(s.World, "kiriSheet_GetReach", result, false); err != nil {
+	if err := failure(s.World, "Sheet.Reach", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.lower, answer.upper, nil

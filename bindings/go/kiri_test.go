@@ -7,6 +7,7 @@ import (
 	"os"
 	"os/exec"
 	"reflect"
+	"regexp"
 	"runtime"
 	"strings"
 	"sync"
@@ -133,10 +134,21 @@ func TestErrorsSayWhat(t *testing.T) {
 	world, sheet := halved(nil)
 	_, err := world.CreateRectangle(-1, 1, 1, 1, nil)
 	var failed *Error
-	if !errors.Is(err, ErrArgument) || !errors.As(err, &failed) || failed.Line == "" || failed.Call != "kiriCreateRectangle" {
+	if !errors.Is(err, ErrArgument) || !errors.As(err, &failed) || failed.Line == "" || failed.Call != "World.CreateRectangle" {
 		t.Error(err)
 	}
-	if _, err = sheet.Point([2]float32{9, 9}); !errors.As(err, &failed) || failed.Line == "" {
+	if _, err = world.Tick(-1, 1); err == nil || err.Error() != "World.Tick: dt is not within 1e-6 and 10 s (ErrArgument)" {
+		t.Error(err)
+	}
+	def := DefaultPinDef()
+	def.Target[0] = float32(math.NaN())
+	if _, err = sheet.CreatePin(&def); err == nil || err.Error() != "Sheet.CreatePin: def.Target[0] is NaN, not finite (ErrArgument)" {
+		t.Error(err)
+	}
+	if _, err = sheet.Point([2]float32{9, 9}); err == nil || !regexp.MustCompile(`^Sheet.Point: .* \(ErrArgument\)$`).MatchString(err.Error()) {
+		t.Error(err)
+	}
+	if _, err = GetMaterial(99); err == nil || !strings.HasPrefix(err.Error(), "GetMaterial: ") || EventPieceOff.String() != "EventPieceOff" {
 		t.Error(err)
 	}
 	world.Destroy()

@@ -35,5 +35,5 @@ package-go: single
 	    '// #cgo CXXFLAGS: -I$${SRCDIR} -std=c++14 -O3 -DNDEBUG -I/usr/include/eigen3' \
 	    '// #cgo LDFLAGS: -lm' 'import "C"' > build/go/kiri/build.go && \
 	cp bindings/go/first_cut/main.go build/go/test && \
-	printf '%s\n' 'module first' '' 'go 1.24' '' 'require kiri v0.0.0' '' 'replace kiri => ../kiri' > build/go/test/go.mod && \
+	printf '%s\n' 'module first' '' 'go 1.24' '' 'require example.com/kiri v0.0.0' '' 'replace example.com/kiri => ../kiri' > build/go/test/go.mod && \
 	cd build/go/test && $(GO_RUN) build -o first_cut . && ./first_cut

@@ -16,8 +16,10 @@ package kiri
 import "C"
 
 import (
+	"regexp"
 	"runtime"
 	"runtime/cgo"
+	"strings"
 	"sync"
 	"unsafe"
 )
@@ -115,19 +117,22 @@ type Error struct {
 }
 
 func (e *Error) Error() string {
-	if e.Line == "" {
-		return e.Call + ": " + e.Result.String() + ": " + GetResultText(e.Result)
+	line := e.Line
+	if line == "" {
+		line = GetResultText(e.Result)
 	}
-	return e.Call + ": " + e.Result.String() + ": " + e.Line
+	return e.Call + ": " + line + " (" + e.Result.String() + ")"
 }
 
 func (e *Error) Unwrap() error { return e.Result }
 
 func (v ResultCode) Error() string { return v.String() }
 
+var fields = regexp.MustCompile(`\.[a-z]`)
+
 func (w *World) check() error {
 	if w == nil || w.c == nil {
-		return &Error{ErrArgument, "kiri", "the world is gone, or there is none"}
+		return &Error{ErrArgument, "World", "the world is gone, or there is none"}
 	}
 	return nil
 }
@@ -143,6 +148,11 @@ func failure(w *World, call string, result C.kiriResult, changes bool) error {
 	}
 	if result >= 0 {
 		return nil
+	}
+	// A line of C begins with its name for the call, and ends with the code; fields are named as in C.
+	if _, why, is := strings.Cut(line, ": "); is {
+		line = strings.TrimSuffix(why, " ("+GetResultName(ResultCode(result))+")")
+		line = fields.ReplaceAllStringFunc(line, strings.ToUpper)
 	}
 	return &Error{ResultCode(result), call, line}
 }
@@ -302,7 +312,7 @@ func NewWorld(def *WorldDef) (*World, error) {
 	}
 	w := &World{hooks: h}
 	result := C.kiriCreateWorld(&c, &w.c)
-	if err := failure(w, "kiriCreateWorld", result, true); err != nil {
+	if err := failure(w, "NewWorld", result, true); err != nil {
 		h.free()
 		return nil, err
 	}
@@ -346,26 +356,26 @@ func FillRectangle(width, height float32, columns, rows int32) ([][2]float32, []
 	indices := make([][3]int32, max(2*int(columns)*int(rows), 1))
 	result := C.kiriFillRectangle(C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows),
 		(*C.float)(unsafe.Pointer(&positions[0])), (*C.int32_t)(unsafe.Pointer(&indices[0])))
-	return positions, indices, failure(nil, "kiriFillRectangle", result, false)
+	return positions, indices, failure(nil, "FillRectangle", result, false)
 }
 
 // FitBudget gives the budget whose work would have taken so many microseconds a tick at the pace of a profile.
 func FitBudget(profile *Profile, microseconds float32, budget Budget) (Budget, error) {
 	result := C.kiriFitBudget((*C.kiriProfile)(unsafe.Pointer(profile)), C.float(microseconds),
 		(*C.kiriBudget)(unsafe.Pointer(&budget)))
-	return budget, failure(nil, "kiriFitBudget", result, false)
+	return budget, failure(nil, "FitBudget", result, false)
 }
 
 // Save gives the world as bytes, none while a cut is being worked on. See Load and FinishCuts.
 func (w *World) Save() ([]byte, error) {
-	return w.write("kiriWorld_Save", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
+	return w.write("World.Save", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
 		return C.kiriWorld_Save(w.c, to, room, size)
 	})
 }
 
 // Snapshot gives all of the world, for rollback in this process. See Restore.
 func (w *World) Snapshot() ([]byte, error) {
-	return w.write("kiriWorld_Snapshot", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
+	return w.write("World.Snapshot", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
 		return C.kiriWorld_Snapshot(w.c, to, room, size)
 	})
 }
@@ -407,7 +417,7 @@ func (w *World) Replay(recording []byte, at *Replay) (bool, error) {
 		first := int(uintptr(c.note) - uintptr(start))
 		at.Note = recording[first : first+int(c.noteCount)]
 	}
-	return result == C.KIRI_PENDING, failure(w, "kiriWorld_Replay", result, true)
+	return result == C.KIRI_PENDING, failure(w, "World.Replay", result, true)
 }
 
 // DebugDraw is what is drawn, and by whom. Vertices are gone after the call.
@@ -443,7 +453,7 @@ func (w *World) DebugDraw(what DebugDraw) error {
 	}
 	result := C.kiriWorld_DebugDraw(w.c, &c)
 	w.hooks.draw = DebugDraw{}
-	return failure(w, "kiriWorld_DebugDraw", result, false)
+	return failure(w, "World.DebugDraw", result, false)
 }
 
 // Weights gives the frames that count at a rest point, their weights, and the gradients of these (1/m).
@@ -457,7 +467,7 @@ func (s Sheet) Weights(restPoint [2]float32) ([]Frame, []float32, [][2]float32, 
 		result := C.kiriSheet_GetWeights(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&restPoint)),
 			(*C.kiriFrame)(unsafe.Pointer(&frames[0])), (*C.float)(unsafe.Pointer(&weights[0])),
 			(*C.float)(unsafe.Pointer(&gradients[0])), room, &count)
-		if err := failure(s.World, "kiriSheet_GetWeights", result, false); err != nil {
+		if err := failure(s.World, "Sheet.Weights", result, false); err != nil {
 			return nil, nil, nil, err
 		}
 		if count <= room {
@@ -481,7 +491,7 @@ func (s Sheet) CopyVertices(first, count int32, positions []byte, positionStride
 	result := C.kiriSheet_CopyVertices(s.World.c, C.kiriSheet(s.ID), C.int32_t(first), C.int32_t(count),
 		unsafe.Pointer(unsafe.SliceData(positions)), C.int32_t(positionStride), unsafe.Pointer(unsafe.SliceData(normals)),
 		C.int32_t(normalStride))
-	return failure(s.World, "kiriSheet_CopyVertices", result, false)
+	return failure(s.World, "Sheet.CopyVertices", result, false)
 }
 
 // CopySources says which triangles of the def some triangles are parts of: as many as there is room for.
@@ -491,7 +501,7 @@ func (s Sheet) CopySources(firstTriangle int32, sources []int32) error {
 	}
 	result := C.kiriSheet_CopySources(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle), C.int32_t(len(sources)),
 		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(sources))))
-	return failure(s.World, "kiriSheet_CopySources", result, false)
+	return failure(s.World, "Sheet.CopySources", result, false)
 }
 
 // CopySourceWeights says where the corners of as many triangles as there is room for are in these of the def.
@@ -501,7 +511,7 @@ func (s Sheet) CopySourceWeights(firstTriangle int32, weights [][9]float32) erro
 	}
 	result := C.kiriSheet_CopySourceWeights(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle),
 		C.int32_t(len(weights)), (*C.float)(unsafe.Pointer(unsafe.SliceData(weights))))
-	return failure(s.World, "kiriSheet_CopySourceWeights", result, false)
+	return failure(s.World, "Sheet.CopySourceWeights", result, false)
 }
 
 // CopyPrevious says which index as many vertices as there is room for had when the last tick began, or -1, in the sheet
@@ -513,7 +523,7 @@ func (s Sheet) CopyPrevious(first int32, vertices []int32) (Sheet, error) {
 	from := new(C.kiriSheet)
 	result := C.kiriSheet_CopyPrevious(s.World.c, C.kiriSheet(s.ID), C.int32_t(first), C.int32_t(len(vertices)),
 		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(vertices))), from)
-	return Sheet{s.World, SheetID(*from)}, failure(s.World, "kiriSheet_CopyPrevious", result, false)
+	return Sheet{s.World, SheetID(*from)}, failure(s.World, "Sheet.CopyPrevious", result, false)
 }
 
 // CopyIndices16 copies the corners of as many triangles as there is room for.
@@ -523,5 +533,5 @@ func (s Sheet) CopyIndices16(firstTriangle int32, indices [][3]uint16) error {
 	}
 	result := C.kiriSheet_CopyIndices16(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle), C.int32_t(len(indices)),
 		(*C.uint16_t)(unsafe.Pointer(unsafe.SliceData(indices))))
-	return failure(s.World, "kiriSheet_CopyIndices16", result, false)
+	return failure(s.World, "Sheet.CopyIndices16", result, false)
 }

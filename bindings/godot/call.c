@@ -44,8 +44,24 @@ int Check(const Method* method, Self* world, kiriResult result)
     if (world != NULL) {
         world->last = result;
     }
-    if (result < 0) {
-        Fail(method, kiriGetResultName(result), world != NULL ? world->line : NULL);
+    if (result < 0) { /* a line of C begins with its name for the call, and ends with the code; fields are in camelCase */
+        const char* line = world != NULL && world->line[0] != 0 ? world->line : kiriGetResultText(result);
+        const char* named = strncmp(line, "kiri", 4) == 0 ? strstr(line, ": ") : NULL;
+        const char* why = named != NULL ? named + 2 : line;
+        const char* code = strstr(why, " (KIRI_");
+        const char* end = code != NULL ? code : why + strlen(why);
+        char own[2 * MOST_TEXT];
+        size_t size = 0;
+        for (int isLow = 0; why != end && size < sizeof own - 32; ++why) { /* isLow: the word began with a small letter */
+            int isSmall = *why >= 'a' && *why <= 'z', isBig = *why >= 'A' && *why <= 'Z';
+            isLow = size == 0 || strchr(" .[&", why[-1]) != NULL ? isSmall : isLow;
+            if (isBig && isLow) {
+                own[size++] = '_';
+            }
+            own[size++] = (char)(isBig && isLow ? *why + 'a' - 'A' : *why);
+        }
+        snprintf(own + size, sizeof own - size, " (%s)", kiriGetResultName(result) + strlen("KIRI_"));
+        Fail(method, own, NULL);
     }
     return result >= 0;
 }

@@ -1570,7 +1570,7 @@ export function fitBudget(profile, microseconds, budget) {
     writeBudget(budget, scratch + 144, null);
     const $result = wasm.kiriFitBudget(scratch, microseconds, scratch + 144);
     if ($result < 0) {
-        fail(null, $result, "kiriFitBudget");
+        fail(null, $result, "fitBudget");
     }
     readBudget(budget, scratch + 144, null);
     return $result;
@@ -1583,7 +1583,7 @@ export function getStageName(stage) {
 export function getMaterial(preset, into = new Material()) {
     const $result = wasm.kiriGetMaterial(preset, scratch);
     if ($result < 0) {
-        fail(null, $result, "kiriGetMaterial");
+        fail(null, $result, "getMaterial");
     }
     return readMaterial(into, scratch, null);
 }
@@ -1591,7 +1591,7 @@ export function getMaterial(preset, into = new Material()) {
 export function getQuality(preset, into = new Quality()) {
     const $result = wasm.kiriGetQuality(preset, scratch);
     if ($result < 0) {
-        fail(null, $result, "kiriGetQuality");
+        fail(null, $result, "getQuality");
     }
     return readQuality(into, scratch, null);
 }
@@ -1599,7 +1599,7 @@ export function getQuality(preset, into = new Quality()) {
 export function getSetup(preset, width, height, into = new Setup()) {
     const $result = wasm.kiriGetSetup(preset, width, height, scratch);
     if ($result < 0) {
-        fail(null, $result, "kiriGetSetup");
+        fail(null, $result, "getSetup");
     }
     return readSetup(into, scratch, null);
 }
@@ -1610,7 +1610,7 @@ export function fillRectangle(width, height, columns, rows) {
         const $indices = take(4 * 6 * columns * rows);
         const $result = wasm.kiriFillRectangle(width, height, columns, rows, $restPositions, $indices);
         if ($result < 0) {
-            fail(null, $result, "kiriFillRectangle");
+            fail(null, $result, "fillRectangle");
         }
         return { restPositions: copy("Float32Array", $restPositions, 2 * (columns + 1) * (rows + 1)), indices: copy("Int32Array", $indices, 6 * columns * rows) };
     } finally {
@@ -1628,7 +1628,7 @@ export class World extends WorldBase {
         const $result = wasm.kiriCreateWorld(scratch, scratch + 72);
         if ($result < 0) {
             this._end();
-            fail(this, $result, "kiriCreateWorld");
+            fail(this, $result, "World");
         }
         this._pointer = U32[(scratch + 72) >> 2];
     }
@@ -1646,7 +1646,7 @@ export class World extends WorldBase {
         this._epoch++;
         const $result = wasm.kiriWorld_Tick($world, dt, substeps);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_Tick");
+            fail(this, $result, "World.tick");
         }
         return $result;
     }
@@ -1660,7 +1660,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_ShiftOrigin($world, put("Float32Array", scratch, origin, 3, "origin"));
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_ShiftOrigin");
+            fail(this, $result, "World.shiftOrigin");
         }
         return $result;
     }
@@ -1669,7 +1669,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_SetGravity($world, put("Float32Array", scratch, gravity, 3, "gravity"));
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_SetGravity");
+            fail(this, $result, "World.setGravity");
         }
         return $result;
     }
@@ -1680,7 +1680,7 @@ export class World extends WorldBase {
         writeBudget(budget, scratch, this);
         const $result = wasm.kiriWorld_SetBudget($world, scratch);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_SetBudget");
+            fail(this, $result, "World.setBudget");
         }
         return $result;
     }
@@ -1689,7 +1689,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_GetStateHash($world, scratch);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_GetStateHash");
+            fail(this, $result, "World.getStateHash");
         }
         return U64[(scratch) >> 3];
     }
@@ -1699,13 +1699,13 @@ export class World extends WorldBase {
         try {
             let $result = wasm.kiriWorld_GetSheets($world, scratch + 2048, 0, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_GetSheets");
+                fail(this, $result, "World.getSheets");
             }
             const $capacity = I32[(scratch) >> 2];
             const $sheets = take(4 * $capacity);
             $result = wasm.kiriWorld_GetSheets($world, $sheets, $capacity, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_GetSheets");
+                fail(this, $result, "World.getSheets");
             }
             return things(Sheet, this, $sheets, $capacity);
         } finally {
@@ -1719,7 +1719,7 @@ export class World extends WorldBase {
             const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
             const $result = wasm.kiriWorld_Note($world, $bytes, bytes.length);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Note");
+                fail(this, $result, "World.note");
             }
             return $result;
         } finally {
@@ -1736,7 +1736,7 @@ export class World extends WorldBase {
             writeReplay(replay, scratch, this);
             const $result = wasm.kiriWorld_Replay($world, $recording, BigInt(recording.length), scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Replay");
+                fail(this, $result, "World.replay");
             }
             readReplay(replay, scratch, this);
             return $result;
@@ -1750,13 +1750,13 @@ export class World extends WorldBase {
         try {
             let $result = wasm.kiriWorld_Save($world, 0, 0n, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Save");
+                fail(this, $result, "World.save");
             }
             const $capacity = int64(scratch);
             const $bytes = take($capacity);
             $result = wasm.kiriWorld_Save($world, $bytes, BigInt($capacity), scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Save");
+                fail(this, $result, "World.save");
             }
             return copy("Uint8Array", $bytes, $capacity);
         } finally {
@@ -1769,7 +1769,7 @@ export class World extends WorldBase {
         this._epoch++;
         const $result = wasm.kiriWorld_FinishCuts($world);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_FinishCuts");
+            fail(this, $result, "World.finishCuts");
         }
         return $result;
     }
@@ -1781,7 +1781,7 @@ export class World extends WorldBase {
             const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
             const $result = wasm.kiriWorld_Load($world, $bytes, BigInt(bytes.length));
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Load");
+                fail(this, $result, "World.load");
             }
             return $result;
         } finally {
@@ -1794,13 +1794,13 @@ export class World extends WorldBase {
         try {
             let $result = wasm.kiriWorld_Snapshot($world, 0, 0n, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Snapshot");
+                fail(this, $result, "World.snapshot");
             }
             const $capacity = int64(scratch);
             const $bytes = take($capacity);
             $result = wasm.kiriWorld_Snapshot($world, $bytes, BigInt($capacity), scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Snapshot");
+                fail(this, $result, "World.snapshot");
             }
             return copy("Uint8Array", $bytes, $capacity);
         } finally {
@@ -1815,7 +1815,7 @@ export class World extends WorldBase {
             const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
             const $result = wasm.kiriWorld_Restore($world, $bytes, BigInt(bytes.length));
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_Restore");
+                fail(this, $result, "World.restore");
             }
             return $result;
         } finally {
@@ -1827,7 +1827,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_GetEvents($world, scratch, scratch + 8);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_GetEvents");
+            fail(this, $result, "World.getEvents");
         }
         const $count = I32[(scratch + 8) >> 2];
         return new Rows(this, U32[(scratch) >> 2], $count, 44, Event, readEvent);
@@ -1837,7 +1837,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_GetProfile($world, scratch);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_GetProfile");
+            fail(this, $result, "World.getProfile");
         }
         return readProfile(into, scratch, this);
     }
@@ -1849,7 +1849,7 @@ export class World extends WorldBase {
             writeSheetDef(def, scratch, this);
             const $result = wasm.kiriCreateSheet($world, scratch, scratch + 232);
             if ($result < 0) {
-                fail(this, $result, "kiriCreateSheet");
+                fail(this, $result, "World.createSheet");
             }
             return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
@@ -1866,7 +1866,7 @@ export class World extends WorldBase {
             }
             const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 232);
             if ($result < 0) {
-                fail(this, $result, "kiriCreateRectangle");
+                fail(this, $result, "World.createRectangle");
             }
             return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
@@ -1886,7 +1886,7 @@ export class World extends WorldBase {
             }
             const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 232);
             if ($result < 0) {
-                fail(this, $result, "kiriCreateFoldedSheet");
+                fail(this, $result, "World.createFoldedSheet");
             }
             return thing(Sheet, this, U32[(scratch + 232) >> 2]);
         } finally {
@@ -1898,7 +1898,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_Raycast($world, put("Float32Array", scratch, origin, 3, "origin"), put("Float32Array", scratch + 16, direction, 3, "direction"), maxDistance, scratch + 32, scratch + 40);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_Raycast");
+            fail(this, $result, "World.raycast");
         }
         return { sheet: thing(Sheet, this, U32[(scratch + 32) >> 2]), hit: readHit(into, scratch + 40, this) };
     }
@@ -1913,7 +1913,7 @@ export class World extends WorldBase {
             const $detached = take(4 * frames.length);
             const $result = wasm.kiriWorld_DetachPieces($world, $frames, frames.length, $detached);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_DetachPieces");
+                fail(this, $result, "World.detachPieces");
             }
             return things(Sheet, this, $detached, frames.length);
         } finally {
@@ -1930,7 +1930,7 @@ export class World extends WorldBase {
             }
             const $result = wasm.kiriWorld_DestroyPieces($world, $frames, frames.length);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_DestroyPieces");
+                fail(this, $result, "World.destroyPieces");
             }
             return $result;
         } finally {
@@ -1942,7 +1942,7 @@ export class World extends WorldBase {
         const $world = pointer(this);
         const $result = wasm.kiriBeginBlade($world, idOf(sheet, this), scratch);
         if ($result < 0) {
-            fail(this, $result, "kiriBeginBlade");
+            fail(this, $result, "World.beginBlade");
         }
         return thing(Blade, this, U32[(scratch) >> 2]);
     }
@@ -1954,7 +1954,7 @@ export class World extends WorldBase {
             writeSeamDef(def, scratch, this);
             const $result = wasm.kiriCreateSeam($world, scratch, scratch + 48);
             if ($result < 0) {
-                fail(this, $result, "kiriCreateSeam");
+                fail(this, $result, "World.createSeam");
             }
             return thing(Seam, this, U32[(scratch + 48) >> 2]);
         } finally {
@@ -1967,13 +1967,13 @@ export class World extends WorldBase {
         try {
             let $result = wasm.kiriWorld_GetSeams($world, scratch + 2048, 0, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_GetSeams");
+                fail(this, $result, "World.getSeams");
             }
             const $capacity = I32[(scratch) >> 2];
             const $seams = take(4 * $capacity);
             $result = wasm.kiriWorld_GetSeams($world, $seams, $capacity, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_GetSeams");
+                fail(this, $result, "World.getSeams");
             }
             return things(Seam, this, $seams, $capacity);
         } finally {
@@ -1988,7 +1988,7 @@ export class World extends WorldBase {
             writeObstacleDef(def, scratch, this);
             const $result = wasm.kiriCreateObstacle($world, scratch, scratch + 184);
             if ($result < 0) {
-                fail(this, $result, "kiriCreateObstacle");
+                fail(this, $result, "World.createObstacle");
             }
             return thing(Obstacle, this, U32[(scratch + 184) >> 2]);
         } finally {
@@ -2003,7 +2003,7 @@ export class World extends WorldBase {
         setDraw(draw, scratch);
         const $result = wasm.kiriWorld_DebugDraw($world, scratch);
         if ($result < 0) {
-            fail(this, $result, "kiriWorld_DebugDraw");
+            fail(this, $result, "World.debugDraw");
         }
         return $result;
     }
@@ -2014,7 +2014,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriDestroySheet($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriDestroySheet");
+            fail(this.world, $result, "Sheet.destroy");
         }
         return $result;
     }
@@ -2023,7 +2023,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetSettings($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetSettings");
+            fail(this.world, $result, "Sheet.getSettings");
         }
         return readSheetSettings(into, scratch, this.world);
     }
@@ -2034,7 +2034,7 @@ export class Sheet extends Thing {
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetSettings");
+            fail(this.world, $result, "Sheet.setSettings");
         }
         return $result;
     }
@@ -2045,7 +2045,7 @@ export class Sheet extends Thing {
         writeFold(fold, scratch, this.world);
         const $result = wasm.kiriSheet_AddFold($world, this.id, scratch, scratch + 32);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_AddFold");
+            fail(this.world, $result, "Sheet.addFold");
         }
         return I32[(scratch + 32) >> 2];
     }
@@ -2054,7 +2054,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetFold($world, this.id, index, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetFold");
+            fail(this.world, $result, "Sheet.getFold");
         }
         return readFoldState(into, scratch, this.world);
     }
@@ -2063,7 +2063,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_SetFold($world, this.id, index, stiffness, restAngle);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetFold");
+            fail(this.world, $result, "Sheet.setFold");
         }
         return $result;
     }
@@ -2072,7 +2072,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetMesh($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetMesh");
+            fail(this.world, $result, "Sheet.getMesh");
         }
         return readMesh(into, scratch, this.world);
     }
@@ -2081,7 +2081,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetDirty($world, this.id, sinceRevision, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetDirty");
+            fail(this.world, $result, "Sheet.getDirty");
         }
         return readDirty(into, scratch, this.world);
     }
@@ -2093,7 +2093,7 @@ export class Sheet extends Thing {
             const $normals = normals ? take(12 * count) : 0;
             const $result = wasm.kiriSheet_CopyVertices($world, this.id, first, count, $positions, 12, $normals, 12);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_CopyVertices");
+                fail(this.world, $result, "Sheet.copyVertices");
             }
             if (positions) {
                 scatter($positions, positions, positionStride, count);
@@ -2113,7 +2113,7 @@ export class Sheet extends Thing {
             const $vertices = take(4 * count);
             const $result = wasm.kiriSheet_CopyPrevious($world, this.id, first, count, $vertices, scratch);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_CopyPrevious");
+                fail(this.world, $result, "Sheet.copyPrevious");
             }
             return { vertices: copy("Int32Array", $vertices, count), from: thing(Sheet, this.world, U32[(scratch) >> 2]) };
         } finally {
@@ -2127,7 +2127,7 @@ export class Sheet extends Thing {
             const $indices = take(2 * 3 * count);
             const $result = wasm.kiriSheet_CopyIndices16($world, this.id, firstTriangle, count, $indices);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_CopyIndices16");
+                fail(this.world, $result, "Sheet.copyIndices16");
             }
             return copy("Uint16Array", $indices, 3 * count);
         } finally {
@@ -2141,7 +2141,7 @@ export class Sheet extends Thing {
             const $sources = take(4 * count);
             const $result = wasm.kiriSheet_CopySources($world, this.id, firstTriangle, count, $sources);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_CopySources");
+                fail(this.world, $result, "Sheet.copySources");
             }
             return copy("Int32Array", $sources, count);
         } finally {
@@ -2155,7 +2155,7 @@ export class Sheet extends Thing {
             const $weights = take(4 * 9 * count);
             const $result = wasm.kiriSheet_CopySourceWeights($world, this.id, firstTriangle, count, $weights);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_CopySourceWeights");
+                fail(this.world, $result, "Sheet.copySourceWeights");
             }
             return copy("Float32Array", $weights, 9 * count);
         } finally {
@@ -2167,7 +2167,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetSolid($world, this.id, thickness, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetSolid");
+            fail(this.world, $result, "Sheet.getSolid");
         }
         return readSolid(into, scratch, this.world);
     }
@@ -2176,7 +2176,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetCollisionPoints($world, this.id, scratch, scratch + 8);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetCollisionPoints");
+            fail(this.world, $result, "Sheet.getCollisionPoints");
         }
         const $count = I32[(scratch + 8) >> 2];
         return new View(this.world, "Float32Array", U32[(scratch) >> 2], 3 * $count);
@@ -2186,7 +2186,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetCounts($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetCounts");
+            fail(this.world, $result, "Sheet.getCounts");
         }
         return readCounts(into, scratch, this.world);
     }
@@ -2195,7 +2195,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetTotals($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetTotals");
+            fail(this.world, $result, "Sheet.getTotals");
         }
         return readTotals(into, scratch, this.world);
     }
@@ -2204,7 +2204,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_EstimateError($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_EstimateError");
+            fail(this.world, $result, "Sheet.estimateError");
         }
         return F64[(scratch) >> 3];
     }
@@ -2213,7 +2213,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_IsAwake($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_IsAwake");
+            fail(this.world, $result, "Sheet.isAwake");
         }
         return I32[(scratch) >> 2] !== 0;
     }
@@ -2222,7 +2222,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_Wake($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_Wake");
+            fail(this.world, $result, "Sheet.wake");
         }
         return $result;
     }
@@ -2231,7 +2231,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_Transform($world, this.id, put("Float32Array", scratch, rotation, 9, "rotation"), put("Float32Array", scratch + 40, translation, 3, "translation"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_Transform");
+            fail(this.world, $result, "Sheet.transform");
         }
         return $result;
     }
@@ -2240,7 +2240,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_SetVelocity($world, this.id, put("Float32Array", scratch, velocity, 3, "velocity"), put("Float32Array", scratch + 16, angularVelocity, 3, "angularVelocity"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetVelocity");
+            fail(this.world, $result, "Sheet.setVelocity");
         }
         return $result;
     }
@@ -2249,7 +2249,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_SetUserData($world, this.id, BigInt(data));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetUserData");
+            fail(this.world, $result, "Sheet.setUserData");
         }
         return $result;
     }
@@ -2258,7 +2258,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetUserData($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetUserData");
+            fail(this.world, $result, "Sheet.getUserData");
         }
         return U64[(scratch) >> 3];
     }
@@ -2267,7 +2267,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_Raycast($world, this.id, put("Float32Array", scratch, origin, 3, "origin"), put("Float32Array", scratch + 16, direction, 3, "direction"), maxDistance, scratch + 32);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_Raycast");
+            fail(this.world, $result, "Sheet.raycast");
         }
         return readHit(into, scratch + 32, this.world);
     }
@@ -2276,7 +2276,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetPoint($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), scratch + 8);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetPoint");
+            fail(this.world, $result, "Sheet.getPoint");
         }
         return readPointState(into, scratch + 8, this.world);
     }
@@ -2286,7 +2286,7 @@ export class Sheet extends Thing {
         try {
             let $result = wasm.kiriSheet_GetWeights($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), scratch + 2048, scratch + 2048, scratch + 2048, 0, scratch + 8);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetWeights");
+                fail(this.world, $result, "Sheet.getWeights");
             }
             const $capacity = I32[(scratch + 8) >> 2];
             const $frames = take(4 * $capacity);
@@ -2294,7 +2294,7 @@ export class Sheet extends Thing {
             const $gradients = take(8 * $capacity);
             $result = wasm.kiriSheet_GetWeights($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), $frames, $weights, $gradients, $capacity, scratch + 8);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetWeights");
+                fail(this.world, $result, "Sheet.getWeights");
             }
             return { frames: things(Frame, this.world, $frames, $capacity), weights: copy("Float32Array", $weights, $capacity), gradients: copy("Float32Array", $gradients, 2 * $capacity) };
         } finally {
@@ -2306,7 +2306,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetPiece($world, this.id, piece, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetPiece");
+            fail(this.world, $result, "Sheet.getPiece");
         }
         return readPieceState(into, scratch, this.world);
     }
@@ -2315,7 +2315,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetPieceMesh($world, this.id, piece, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetPieceMesh");
+            fail(this.world, $result, "Sheet.getPieceMesh");
         }
         return readPieceMesh(into, scratch, this.world);
     }
@@ -2324,7 +2324,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetPieceFrames($world, this.id, piece, scratch, scratch + 8);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetPieceFrames");
+            fail(this.world, $result, "Sheet.getPieceFrames");
         }
         const $count = I32[(scratch + 8) >> 2];
         return things(Frame, this.world, U32[(scratch) >> 2], $count);
@@ -2334,7 +2334,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_DropCrumbs($world, this.id, area, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_DropCrumbs");
+            fail(this.world, $result, "Sheet.dropCrumbs");
         }
         return I32[(scratch) >> 2];
     }
@@ -2343,7 +2343,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriBeginCut($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), scratch + 8);
         if ($result < 0) {
-            fail(this.world, $result, "kiriBeginCut");
+            fail(this.world, $result, "Sheet.beginCut");
         }
         return thing(Cut, this.world, U32[(scratch + 8) >> 2]);
     }
@@ -2352,7 +2352,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_Slice($world, this.id, put("Float32Array", scratch, blade, 12, "blade"), scratch + 48);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_Slice");
+            fail(this.world, $result, "Sheet.slice");
         }
         return thing(Cut, this.world, U32[(scratch + 48) >> 2]);
     }
@@ -2363,7 +2363,7 @@ export class Sheet extends Thing {
         writeTearing(tearing, scratch, this.world);
         const $result = wasm.kiriSheet_SetTearing($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetTearing");
+            fail(this.world, $result, "Sheet.setTearing");
         }
         return $result;
     }
@@ -2372,7 +2372,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetTearing($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetTearing");
+            fail(this.world, $result, "Sheet.getTearing");
         }
         return readTearing(into, scratch, this.world);
     }
@@ -2383,7 +2383,7 @@ export class Sheet extends Thing {
             const $restPoints = putRows("Float32Array", restPoints, 2, "restPoints");
             const $result = wasm.kiriSheet_SetTearLine($world, this.id, $restPoints, restPoints.length / 2, factor);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_SetTearLine");
+                fail(this.world, $result, "Sheet.setTearLine");
             }
             return $result;
         } finally {
@@ -2396,13 +2396,13 @@ export class Sheet extends Thing {
         try {
             let $result = wasm.kiriSheet_GetFrames($world, this.id, scratch + 2048, 0, scratch);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetFrames");
+                fail(this.world, $result, "Sheet.getFrames");
             }
             const $capacity = I32[(scratch) >> 2];
             const $frames = take(4 * $capacity);
             $result = wasm.kiriSheet_GetFrames($world, this.id, $frames, $capacity, scratch);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetFrames");
+                fail(this.world, $result, "Sheet.getFrames");
             }
             return things(Frame, this.world, $frames, $capacity);
         } finally {
@@ -2414,7 +2414,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_ApplyForce($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), put("Float32Array", scratch + 8, force, 3, "force"), put("Float32Array", scratch + 24, torque, 3, "torque"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_ApplyForce");
+            fail(this.world, $result, "Sheet.applyForce");
         }
         return $result;
     }
@@ -2423,7 +2423,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_ApplyLineLoad($world, this.id, put("Float32Array", scratch, from, 2, "from"), put("Float32Array", scratch + 8, to, 2, "to"), put("Float32Array", scratch + 16, forcePerLength, 3, "forcePerLength"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_ApplyLineLoad");
+            fail(this.world, $result, "Sheet.applyLineLoad");
         }
         return $result;
     }
@@ -2432,7 +2432,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_ApplyPressure($world, this.id, pressure);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_ApplyPressure");
+            fail(this.world, $result, "Sheet.applyPressure");
         }
         return $result;
     }
@@ -2441,7 +2441,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_ApplyImpulse($world, this.id, put("Float32Array", scratch, restPoint, 2, "restPoint"), put("Float32Array", scratch + 8, impulse, 3, "impulse"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_ApplyImpulse");
+            fail(this.world, $result, "Sheet.applyImpulse");
         }
         return $result;
     }
@@ -2452,7 +2452,7 @@ export class Sheet extends Thing {
         writeWind(wind, scratch, this.world);
         const $result = wasm.kiriSheet_SetWind($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_SetWind");
+            fail(this.world, $result, "Sheet.setWind");
         }
         return $result;
     }
@@ -2463,7 +2463,7 @@ export class Sheet extends Thing {
         writePinDef(def, scratch, this.world);
         const $result = wasm.kiriCreatePin($world, this.id, scratch, scratch + 40);
         if ($result < 0) {
-            fail(this.world, $result, "kiriCreatePin");
+            fail(this.world, $result, "Sheet.createPin");
         }
         return thing(Pin, this.world, U32[(scratch + 40) >> 2]);
     }
@@ -2472,7 +2472,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_ClampLine($world, this.id, put("Float32Array", scratch, from, 2, "from"), put("Float32Array", scratch + 8, to, 2, "to"), scratch + 16);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_ClampLine");
+            fail(this.world, $result, "Sheet.clampLine");
         }
         return thing(Pin, this.world, U32[(scratch + 16) >> 2]);
     }
@@ -2481,7 +2481,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_HingeLine($world, this.id, put("Float32Array", scratch, from, 2, "from"), put("Float32Array", scratch + 8, to, 2, "to"), scratch + 16);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_HingeLine");
+            fail(this.world, $result, "Sheet.hingeLine");
         }
         return thing(Pin, this.world, U32[(scratch + 16) >> 2]);
     }
@@ -2491,13 +2491,13 @@ export class Sheet extends Thing {
         try {
             let $result = wasm.kiriSheet_GetPins($world, this.id, scratch + 2048, 0, scratch);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetPins");
+                fail(this.world, $result, "Sheet.getPins");
             }
             const $capacity = I32[(scratch) >> 2];
             const $pins = take(4 * $capacity);
             $result = wasm.kiriSheet_GetPins($world, this.id, $pins, $capacity, scratch);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_GetPins");
+                fail(this.world, $result, "Sheet.getPins");
             }
             return things(Pin, this.world, $pins, $capacity);
         } finally {
@@ -2515,7 +2515,7 @@ export class Sheet extends Thing {
             }
             const $result = wasm.kiriSheet_SetContacts($world, this.id, $contacts, contacts.length);
             if ($result < 0) {
-                fail(this.world, $result, "kiriSheet_SetContacts");
+                fail(this.world, $result, "Sheet.setContacts");
             }
             return $result;
         } finally {
@@ -2527,7 +2527,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetContactForces($world, this.id, scratch, scratch + 8);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetContactForces");
+            fail(this.world, $result, "Sheet.getContactForces");
         }
         const $count = I32[(scratch + 8) >> 2];
         return new Rows(this.world, U32[(scratch) >> 2], $count, 64, ContactForce, readContactForce);
@@ -2537,7 +2537,7 @@ export class Sheet extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetReach($world, this.id, dt, scratch, scratch + 16);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSheet_GetReach");
+            fail(this.world, $result, "Sheet.getReach");
         }
         return { lower: copy("Float32Array", scratch, 3), upper: copy("Float32Array", scratch + 16, 3) };
     }
@@ -2550,7 +2550,7 @@ export class Cut extends Thing {
             const $restPoints = putRows("Float32Array", restPoints, 2, "restPoints");
             const $result = wasm.kiriCut_Extend($world, this.id, $restPoints, restPoints.length / 2);
             if ($result < 0) {
-                fail(this.world, $result, "kiriCut_Extend");
+                fail(this.world, $result, "Cut.extend");
             }
             return $result;
         } finally {
@@ -2562,7 +2562,7 @@ export class Cut extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriCut_End($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriCut_End");
+            fail(this.world, $result, "Cut.end");
         }
         return $result;
     }
@@ -2573,7 +2573,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_SetPieceVelocity($world, this.id, put("Float32Array", scratch, velocity, 3, "velocity"), put("Float32Array", scratch + 16, angularVelocity, 3, "angularVelocity"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_SetPieceVelocity");
+            fail(this.world, $result, "Frame.setPieceVelocity");
         }
         return $result;
     }
@@ -2582,7 +2582,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_SetPieceUserData($world, this.id, BigInt(data));
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_SetPieceUserData");
+            fail(this.world, $result, "Frame.setPieceUserData");
         }
         return $result;
     }
@@ -2591,7 +2591,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_GetPieceUserData($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_GetPieceUserData");
+            fail(this.world, $result, "Frame.getPieceUserData");
         }
         return U64[(scratch) >> 3];
     }
@@ -2600,7 +2600,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_GetPiece($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_GetPiece");
+            fail(this.world, $result, "Frame.getPiece");
         }
         return I32[(scratch) >> 2];
     }
@@ -2609,7 +2609,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_DetachPiece($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_DetachPiece");
+            fail(this.world, $result, "Frame.detachPiece");
         }
         return thing(Sheet, this.world, U32[(scratch) >> 2]);
     }
@@ -2618,7 +2618,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_DestroyPiece($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_DestroyPiece");
+            fail(this.world, $result, "Frame.destroyPiece");
         }
         return $result;
     }
@@ -2627,7 +2627,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_Hold($world, this.id, position ? put("Float32Array", scratch, position, 3, "position") : 0, rotation ? put("Float32Array", scratch + 16, rotation, 9, "rotation") : 0);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_Hold");
+            fail(this.world, $result, "Frame.hold");
         }
         return $result;
     }
@@ -2636,7 +2636,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_GetState($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_GetState");
+            fail(this.world, $result, "Frame.getState");
         }
         return readFrameState(into, scratch, this.world);
     }
@@ -2645,7 +2645,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_GetReaction($world, this.id, scratch, scratch + 24);
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_GetReaction");
+            fail(this.world, $result, "Frame.getReaction");
         }
         return { force: copy("Float64Array", scratch, 3), torque: copy("Float64Array", scratch + 24, 3) };
     }
@@ -2654,7 +2654,7 @@ export class Frame extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriFrame_ApplyForce($world, this.id, put("Float32Array", scratch, force, 3, "force"), put("Float32Array", scratch + 16, torque, 3, "torque"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriFrame_ApplyForce");
+            fail(this.world, $result, "Frame.applyForce");
         }
         return $result;
     }
@@ -2665,7 +2665,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_SetUserData($world, this.id, BigInt(data));
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_SetUserData");
+            fail(this.world, $result, "Pin.setUserData");
         }
         return $result;
     }
@@ -2674,7 +2674,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_GetUserData($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_GetUserData");
+            fail(this.world, $result, "Pin.getUserData");
         }
         return U64[(scratch) >> 3];
     }
@@ -2683,7 +2683,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriDestroyPin($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriDestroyPin");
+            fail(this.world, $result, "Pin.destroy");
         }
         return $result;
     }
@@ -2692,7 +2692,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_SetTarget($world, this.id, put("Float32Array", scratch, target, 3, "target"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_SetTarget");
+            fail(this.world, $result, "Pin.setTarget");
         }
         return $result;
     }
@@ -2701,7 +2701,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_SetPose($world, this.id, put("Float32Array", scratch, target, 3, "target"), put("Float32Array", scratch + 16, rotation, 9, "rotation"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_SetPose");
+            fail(this.world, $result, "Pin.setPose");
         }
         return $result;
     }
@@ -2710,7 +2710,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_SetBreakForce($world, this.id, breakForce);
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_SetBreakForce");
+            fail(this.world, $result, "Pin.setBreakForce");
         }
         return $result;
     }
@@ -2719,7 +2719,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_GetState($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_GetState");
+            fail(this.world, $result, "Pin.getState");
         }
         return readPinState(into, scratch, this.world);
     }
@@ -2728,7 +2728,7 @@ export class Pin extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_GetReaction($world, this.id, scratch, scratch + 24);
         if ($result < 0) {
-            fail(this.world, $result, "kiriPin_GetReaction");
+            fail(this.world, $result, "Pin.getReaction");
         }
         return { force: copy("Float64Array", scratch, 3), torque: copy("Float64Array", scratch + 24, 3) };
     }
@@ -2739,7 +2739,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriDestroyObstacle($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriDestroyObstacle");
+            fail(this.world, $result, "Obstacle.destroy");
         }
         return $result;
     }
@@ -2748,7 +2748,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriObstacle_SetPose($world, this.id, put("Float32Array", scratch, position, 3, "position"), put("Float32Array", scratch + 16, rotation, 9, "rotation"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriObstacle_SetPose");
+            fail(this.world, $result, "Obstacle.setPose");
         }
         return $result;
     }
@@ -2757,7 +2757,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriObstacle_SetVelocity($world, this.id, put("Float32Array", scratch, velocity, 3, "velocity"), put("Float32Array", scratch + 16, angularVelocity, 3, "angularVelocity"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriObstacle_SetVelocity");
+            fail(this.world, $result, "Obstacle.setVelocity");
         }
         return $result;
     }
@@ -2766,7 +2766,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriObstacle_SetSurfaceVelocity($world, this.id, put("Float32Array", scratch, velocity, 3, "velocity"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriObstacle_SetSurfaceVelocity");
+            fail(this.world, $result, "Obstacle.setSurfaceVelocity");
         }
         return $result;
     }
@@ -2775,7 +2775,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriObstacle_SetMass($world, this.id, mass, put("Float32Array", scratch, inertia, 6, "inertia"), put("Float32Array", scratch + 24, centerOfMass, 3, "centerOfMass"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriObstacle_SetMass");
+            fail(this.world, $result, "Obstacle.setMass");
         }
         return $result;
     }
@@ -2784,7 +2784,7 @@ export class Obstacle extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriObstacle_GetState($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriObstacle_GetState");
+            fail(this.world, $result, "Obstacle.getState");
         }
         return readObstacleState(into, scratch, this.world);
     }
@@ -2795,7 +2795,7 @@ export class Blade extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriBlade_MoveEdge($world, this.id, put("Float32Array", scratch, from, 3, "from"), put("Float32Array", scratch + 16, to, 3, "to"));
         if ($result < 0) {
-            fail(this.world, $result, "kiriBlade_MoveEdge");
+            fail(this.world, $result, "Blade.moveEdge");
         }
         return $result;
     }
@@ -2804,7 +2804,7 @@ export class Blade extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriBlade_MoveRay($world, this.id, put("Float32Array", scratch, origin, 3, "origin"), put("Float32Array", scratch + 16, direction, 3, "direction"), length);
         if ($result < 0) {
-            fail(this.world, $result, "kiriBlade_MoveRay");
+            fail(this.world, $result, "Blade.moveRay");
         }
         return $result;
     }
@@ -2813,7 +2813,7 @@ export class Blade extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriBlade_End($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriBlade_End");
+            fail(this.world, $result, "Blade.end");
         }
         return $result;
     }
@@ -2824,7 +2824,7 @@ export class Seam extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriDestroySeam($world, this.id);
         if ($result < 0) {
-            fail(this.world, $result, "kiriDestroySeam");
+            fail(this.world, $result, "Seam.destroy");
         }
         return $result;
     }
@@ -2833,7 +2833,7 @@ export class Seam extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSeam_SetHinge($world, this.id, stiffness, restAngle);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSeam_SetHinge");
+            fail(this.world, $result, "Seam.setHinge");
         }
         return $result;
     }
@@ -2842,7 +2842,7 @@ export class Seam extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSeam_GetStitch($world, this.id, index, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSeam_GetStitch");
+            fail(this.world, $result, "Seam.getStitch");
         }
         return readStitch(into, scratch, this.world);
     }
@@ -2851,7 +2851,7 @@ export class Seam extends Thing {
         const $world = pointer(this.world);
         const $result = wasm.kiriSeam_GetCount($world, this.id, scratch);
         if ($result < 0) {
-            fail(this.world, $result, "kiriSeam_GetCount");
+            fail(this.world, $result, "Seam.getCount");
         }
         return I32[(scratch) >> 2];
     }

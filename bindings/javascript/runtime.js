@@ -218,7 +218,7 @@ export class WorldBase {
 /** The pointer of a world that is still there. */
 export function pointer(world) {
     if (!world._pointer) {
-        throw new KiriError(-5, "the world was destroyed");
+        throw new KiriError(-5, "the world was destroyed (ErrorState)");
     }
     return world._pointer;
 }
@@ -241,18 +241,19 @@ export function idOf(given, world) {
         return 0;
     }
     if (given.world !== world) {
-        throw new KiriError(-3, "it is of another world");
+        throw new KiriError(-3, "it is of another world (ErrorId)");
     }
     return given.id;
 }
 
+/** A line of C begins with its name for the call, and ends with the code. */
 export function fail(world, code, name) {
-    const line = world?._line || (world && string(wasm.kiriWorld_GetLastError(world._pointer)));
+    const line = world?._line || (world && string(wasm.kiriWorld_GetLastError(world._pointer))) || string(wasm.kiriGetResultText(code));
     if (world) {
         world._line = "";
     }
-    const text = line ? "" : `: ${string(wasm.kiriGetResultText(code))}`;
-    throw new KiriError(code, `${line || name}: ${string(wasm.kiriGetResultName(code))}${text}`);
+    const own = string(wasm.kiriGetResultName(code)).slice(5).toLowerCase().replace(/(?:^|_)(.)/g, (_, first) => first.toUpperCase());
+    throw new KiriError(code, `${name}: ${line.replace(/^kiri\w*: | \(KIRI_\w+\)$/g, "")} (${own})`);
 }
 
 let drawing = null; // by the corners of what is drawn
@@ -267,7 +268,7 @@ export function setDraw(draw, at) {
 
 function fresh(world, epoch) {
     if (!world || world._epoch !== epoch) {
-        throw new KiriError(-5, world && !world._pointer ? "the world was destroyed" : "what this shows was gone with the last tick");
+        throw new KiriError(-5, world && !world._pointer ? "the world was destroyed (ErrorState)" : "what this shows was gone with the last tick (ErrorState)");
     }
 }
 

@@ -403,12 +403,14 @@ end
 
 local this_file = debug.getinfo(1, "S").source
 
-local function fail(world, name, result, changes)
+-- A line of C begins with its name for the call, and ends with the code.
+local function fail(world, call, result, changes)
     local line = world and not world.c and "the world is gone" or ""
     if world and world.c then
         line = changes and ffi.string(C.kiriWorld_GetLastError(world.c)) or world.said.line or ""
         world.said.line = nil
     end
+    line = line:gsub("^kiri[%w_]+: ", ""):gsub(" %(KIRI_[%u_]+%)$", "")
     local level, place = 2, ""
     for i = 2, 8 do
         local info = debug.getinfo(i, "Sl")
@@ -417,9 +419,9 @@ local function fail(world, name, result, changes)
             break
         end
     end
-    local named = ffi.string(C.kiriGetResultName(result))
-    error(setmetatable({result = result, name = named, line = line, call = name, message =
-        ("%s%s: %s: %s"):format(place, name, named, line ~= "" and line or ffi.string(C.kiriGetResultText(result)))},
+    local named = ffi.string(C.kiriGetResultName(result)):gsub("^KIRI_", "")
+    error(setmetatable({result = result, name = named, line = line, call = call, message =
+        ("%s%s: %s (%s)"):format(place, call, line ~= "" and line or ffi.string(C.kiriGetResultText(result)), named)},
         Error), level)
 end
 
@@ -763,7 +765,7 @@ function World:tick(dt, substeps)
     local world = self
     local result = C.kiriWorld_Tick(world.c, dt, substeps)
     passed(world)
-    if result < 0 then fail(world, "kiriWorld_Tick", result, true) end
+    if result < 0 then fail(world, "World:tick", result, true) end
     return result == 1
 end
 
@@ -779,7 +781,7 @@ end
 function World:shiftOrigin(origin)
     local world = self
     local result = C.kiriWorld_ShiftOrigin(world.c, vector(1, origin, 3))
-    if result < 0 then fail(world, "kiriWorld_ShiftOrigin", result, true) end
+    if result < 0 then fail(world, "World:shiftOrigin", result, true) end
     return result == 1
 end
 
@@ -787,7 +789,7 @@ end
 function World:setGravity(gravity)
     local world = self
     local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
-    if result < 0 then fail(world, "kiriWorld_SetGravity", result, true) end
+    if result < 0 then fail(world, "World:setGravity", result, true) end
     return result == 1
 end
 
@@ -795,7 +797,7 @@ end
 function World:setBudget(budget)
     local world = self
     local result = C.kiriWorld_SetBudget(world.c, struct_of(world, budget, "kiriBudget"))
-    if result < 0 then fail(world, "kiriWorld_SetBudget", result, true) end
+    if result < 0 then fail(world, "World:setBudget", result, true) end
     return result == 1
 end
 
@@ -803,7 +805,7 @@ end
 function World:getStateHash()
     local world = self
     local result = C.kiriWorld_GetStateHash(world.c, out.uint64_t)
-    if result < 0 then fail(world, "kiriWorld_GetStateHash", result, false) end
+    if result < 0 then fail(world, "World:getStateHash", result, false) end
     local hash = out.uint64_t[0]
     return hash
 end
@@ -812,7 +814,7 @@ end
 function World:getSheets()
     local world = self
     local result = C.kiriWorld_GetSheets(world.c, room.kiriSheet, room.size, out.int32_t)
-    if result < 0 then fail(world, "kiriWorld_GetSheets", result, false) end
+    if result < 0 then fail(world, "World:getSheets", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return World.getSheets(self) end
     return list_of(world, room.kiriSheet, out.int32_t[0], "Sheet")
 end
@@ -822,7 +824,7 @@ function World:note(bytes, count)
     local world = self
     count = count or #bytes
     local result = C.kiriWorld_Note(world.c, bytes, count)
-    if result < 0 then fail(world, "kiriWorld_Note", result, true) end
+    if result < 0 then fail(world, "World:note", result, true) end
     return result == 1
 end
 
@@ -836,7 +838,7 @@ function World:replay(recording, replay, size)
     size = size or #recording
     local result = C.kiriWorld_Replay(world.c, recording, size, replay)
     passed(world)
-    if result < 0 then fail(world, "kiriWorld_Replay", result, true) end
+    if result < 0 then fail(world, "World:replay", result, true) end
     return result == 1
 end
 
@@ -845,7 +847,7 @@ end
 function World:save(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Save(world.c, bytes, capacity or 0, out.int64_t)
-    if result < 0 then fail(world, "kiriWorld_Save", result, false) end
+    if result < 0 then fail(world, "World:save", result, false) end
     if bytes then return tonumber(out.int64_t[0]) end
     bytes = ffi.new("uint8_t[?]", out.int64_t[0])
     local size = self:save(bytes, out.int64_t[0])
@@ -858,7 +860,7 @@ end
 function World:finishCuts()
     local world = self
     local result = C.kiriWorld_FinishCuts(world.c)
-    if result < 0 then fail(world, "kiriWorld_FinishCuts", result, true) end
+    if result < 0 then fail(world, "World:finishCuts", result, true) end
     return result == 1
 end
 
@@ -870,7 +872,7 @@ function World:load(bytes, size)
     local world = self
     size = size or #bytes
     local result = C.kiriWorld_Load(world.c, bytes, size)
-    if result < 0 then fail(world, "kiriWorld_Load", result, true) end
+    if result < 0 then fail(world, "World:load", result, true) end
     return result == 1
 end
 
@@ -879,7 +881,7 @@ end
 function World:snapshot(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Snapshot(world.c, bytes, capacity or 0, out.int64_t)
-    if result < 0 then fail(world, "kiriWorld_Snapshot", result, false) end
+    if result < 0 then fail(world, "World:snapshot", result, false) end
     if bytes then return tonumber(out.int64_t[0]) end
     bytes = ffi.new("uint8_t[?]", out.int64_t[0])
     local size = self:snapshot(bytes, out.int64_t[0])
@@ -892,7 +894,7 @@ function World:restore(bytes, size)
     local world = self
     size = size or #bytes
     local result = C.kiriWorld_Restore(world.c, bytes, size)
-    if result < 0 then fail(world, "kiriWorld_Restore", result, true) end
+    if result < 0 then fail(world, "World:restore", result, true) end
     return result == 1
 end
 
@@ -900,7 +902,7 @@ end
 function World:getEvents()
     local world = self
     local result = C.kiriWorld_GetEvents(world.c, out.kiriEventRows, out.int32_t)
-    if result < 0 then fail(world, "kiriWorld_GetEvents", result, false) end
+    if result < 0 then fail(world, "World:getEvents", result, false) end
     return new.kiriEventArray(out.kiriEventRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
@@ -909,7 +911,7 @@ function World:getProfile(profile)
     local world = self
     profile = profile or new.kiriProfile()
     local result = C.kiriWorld_GetProfile(world.c, profile)
-    if result < 0 then fail(world, "kiriWorld_GetProfile", result, false) end
+    if result < 0 then fail(world, "World:getProfile", result, false) end
     return profile
 end
 
@@ -917,7 +919,7 @@ end
 --- limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
-    if result < 0 then fail(nil, "kiriFitBudget", result, false) end
+    if result < 0 then fail(nil, "fitBudget", result, false) end
     return result == 1
 end
 
@@ -930,7 +932,7 @@ end
 function kiri.getMaterial(preset, material)
     material = material or new.kiriMaterial()
     local result = C.kiriGetMaterial(preset, material)
-    if result < 0 then fail(nil, "kiriGetMaterial", result, false) end
+    if result < 0 then fail(nil, "getMaterial", result, false) end
     return material
 end
 
@@ -938,7 +940,7 @@ end
 function kiri.getQuality(preset, quality)
     quality = quality or new.kiriQuality()
     local result = C.kiriGetQuality(preset, quality)
-    if result < 0 then fail(nil, "kiriGetQuality", result, false) end
+    if result < 0 then fail(nil, "getQuality", result, false) end
     return quality
 end
 
@@ -946,7 +948,7 @@ end
 function kiri.getSetup(preset, width, height, setup)
     setup = setup or new.kiriSetup()
     local result = C.kiriGetSetup(preset, width, height, setup)
-    if result < 0 then fail(nil, "kiriGetSetup", result, false) end
+    if result < 0 then fail(nil, "getSetup", result, false) end
     return setup
 end
 
@@ -963,7 +965,7 @@ end
 function World:createSheet(def)
     local world = self
     local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
-    if result < 0 then fail(world, "kiriCreateSheet", result, true) end
+    if result < 0 then fail(world, "World:createSheet", result, true) end
     return handle(world, out.Sheet[0], "Sheet")
 end
 
@@ -972,7 +974,7 @@ end
 function Sheet:destroy()
     local world = self.world
     local result = C.kiriDestroySheet(world.c, self.id)
-    if result < 0 then fail(world, "kiriDestroySheet", result, true) end
+    if result < 0 then fail(world, "Sheet:destroy", result, true) end
     return result == 1
 end
 
@@ -982,7 +984,7 @@ end
 function World:createRectangle(width, height, columns, rows, def)
     local world = self
     local result = C.kiriCreateRectangle(world.c, width, height, columns, rows, struct_of(world, def, "kiriSheetDef"), out.Sheet)
-    if result < 0 then fail(world, "kiriCreateRectangle", result, true) end
+    if result < 0 then fail(world, "World:createRectangle", result, true) end
     return handle(world, out.Sheet[0], "Sheet")
 end
 
@@ -992,7 +994,7 @@ function Sheet:getSettings(settings)
     local world = self.world
     settings = settings or new.kiriSheetSettings()
     local result = C.kiriSheet_GetSettings(world.c, self.id, settings)
-    if result < 0 then fail(world, "kiriSheet_GetSettings", result, false) end
+    if result < 0 then fail(world, "Sheet:getSettings", result, false) end
     return settings
 end
 
@@ -1001,7 +1003,7 @@ end
 function Sheet:setSettings(settings)
     local world = self.world
     local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
-    if result < 0 then fail(world, "kiriSheet_SetSettings", result, true) end
+    if result < 0 then fail(world, "Sheet:setSettings", result, true) end
     return result == 1
 end
 
@@ -1010,7 +1012,7 @@ function World:createFoldedSheet(def, folds, count)
     local world = self
     folds, count = rows_of(folds, count, "kiriFold", 1)
     local result = C.kiriCreateFoldedSheet(world.c, struct_of(world, def, "kiriSheetDef"), folds, count, out.Sheet)
-    if result < 0 then fail(world, "kiriCreateFoldedSheet", result, true) end
+    if result < 0 then fail(world, "World:createFoldedSheet", result, true) end
     return handle(world, out.Sheet[0], "Sheet")
 end
 
@@ -1019,7 +1021,7 @@ end
 function Sheet:addFold(fold)
     local world = self.world
     local result = C.kiriSheet_AddFold(world.c, self.id, struct_of(world, fold, "kiriFold"), out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_AddFold", result, true) end
+    if result < 0 then fail(world, "Sheet:addFold", result, true) end
     local index = out.int32_t[0]
     return index
 end
@@ -1029,7 +1031,7 @@ function Sheet:getFold(index, state)
     local world = self.world
     state = state or new.kiriFoldState()
     local result = C.kiriSheet_GetFold(world.c, self.id, index, state)
-    if result < 0 then fail(world, "kiriSheet_GetFold", result, false) end
+    if result < 0 then fail(world, "Sheet:getFold", result, false) end
     return state
 end
 
@@ -1037,7 +1039,7 @@ end
 function Sheet:setFold(index, stiffness, restAngle)
     local world = self.world
     local result = C.kiriSheet_SetFold(world.c, self.id, index, stiffness, restAngle)
-    if result < 0 then fail(world, "kiriSheet_SetFold", result, true) end
+    if result < 0 then fail(world, "Sheet:setFold", result, true) end
     return result == 1
 end
 
@@ -1046,7 +1048,7 @@ function kiri.fillRectangle(width, height, columns, rows, restPositions, indices
     restPositions = restPositions or ffi.new("float[?]", 2 * (columns + 1) * (rows + 1))
     indices = indices or ffi.new("int32_t[?]", 6 * columns * rows)
     local result = C.kiriFillRectangle(width, height, columns, rows, restPositions, indices)
-    if result < 0 then fail(nil, "kiriFillRectangle", result, false) end
+    if result < 0 then fail(nil, "fillRectangle", result, false) end
     return restPositions, indices
 end
 
@@ -1055,7 +1057,7 @@ function Sheet:getMesh(mesh)
     local world = self.world
     mesh = mesh or new.kiriMeshView()
     local result = C.kiriSheet_GetMesh(world.c, self.id, mesh.c)
-    if result < 0 then fail(world, "kiriSheet_GetMesh", result, false) end
+    if result < 0 then fail(world, "Sheet:getMesh", result, false) end
     mesh.world, mesh.epoch = world.cell, now[world.cell]
     return mesh
 end
@@ -1065,7 +1067,7 @@ function Sheet:getDirty(sinceRevision, dirty)
     local world = self.world
     dirty = dirty or new.kiriDirty()
     local result = C.kiriSheet_GetDirty(world.c, self.id, sinceRevision, dirty)
-    if result < 0 then fail(world, "kiriSheet_GetDirty", result, false) end
+    if result < 0 then fail(world, "Sheet:getDirty", result, false) end
     return dirty
 end
 
@@ -1073,7 +1075,7 @@ end
 function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride)
     local world = self.world
     local result = C.kiriSheet_CopyVertices(world.c, self.id, first, count, positions, positionStride, normals, normalStride)
-    if result < 0 then fail(world, "kiriSheet_CopyVertices", result, false) end
+    if result < 0 then fail(world, "Sheet:copyVertices", result, false) end
     return result == 1
 end
 
@@ -1083,7 +1085,7 @@ function Sheet:copyPrevious(first, count, vertices)
     local world = self.world
     vertices = vertices or ffi.new("int32_t[?]", count)
     local result = C.kiriSheet_CopyPrevious(world.c, self.id, first, count, vertices, out.Sheet)
-    if result < 0 then fail(world, "kiriSheet_CopyPrevious", result, false) end
+    if result < 0 then fail(world, "Sheet:copyPrevious", result, false) end
     return vertices, handle(world, out.Sheet[0], "Sheet")
 end
 
@@ -1092,7 +1094,7 @@ function Sheet:copyIndices16(firstTriangle, count, indices)
     local world = self.world
     indices = indices or ffi.new("uint16_t[?]", 3 * count)
     local result = C.kiriSheet_CopyIndices16(world.c, self.id, firstTriangle, count, indices)
-    if result < 0 then fail(world, "kiriSheet_CopyIndices16", result, false) end
+    if result < 0 then fail(world, "Sheet:copyIndices16", result, false) end
     return indices
 end
 
@@ -1102,7 +1104,7 @@ function Sheet:copySources(firstTriangle, count, sources)
     local world = self.world
     sources = sources or ffi.new("int32_t[?]", count)
     local result = C.kiriSheet_CopySources(world.c, self.id, firstTriangle, count, sources)
-    if result < 0 then fail(world, "kiriSheet_CopySources", result, false) end
+    if result < 0 then fail(world, "Sheet:copySources", result, false) end
     return sources
 end
 
@@ -1112,7 +1114,7 @@ function Sheet:copySourceWeights(firstTriangle, count, weights)
     local world = self.world
     weights = weights or ffi.new("float[?]", 9 * count)
     local result = C.kiriSheet_CopySourceWeights(world.c, self.id, firstTriangle, count, weights)
-    if result < 0 then fail(world, "kiriSheet_CopySourceWeights", result, false) end
+    if result < 0 then fail(world, "Sheet:copySourceWeights", result, false) end
     return weights
 end
 
@@ -1121,7 +1123,7 @@ function Sheet:getSolid(thickness, solid)
     local world = self.world
     solid = solid or new.kiriSolidView()
     local result = C.kiriSheet_GetSolid(world.c, self.id, thickness, solid.c)
-    if result < 0 then fail(world, "kiriSheet_GetSolid", result, true) end
+    if result < 0 then fail(world, "Sheet:getSolid", result, true) end
     solid.world, solid.epoch = world.cell, now[world.cell]
     return solid
 end
@@ -1130,7 +1132,7 @@ end
 function Sheet:getCollisionPoints()
     local world = self.world
     local result = C.kiriSheet_GetCollisionPoints(world.c, self.id, out.floatRows, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetCollisionPoints", result, false) end
+    if result < 0 then fail(world, "Sheet:getCollisionPoints", result, false) end
     return new.floatArray(out.floatRows[0], out.int32_t[0], 3, world.cell, now[world.cell])
 end
 
@@ -1139,7 +1141,7 @@ function Sheet:getCounts(counts)
     local world = self.world
     counts = counts or new.kiriCounts()
     local result = C.kiriSheet_GetCounts(world.c, self.id, counts)
-    if result < 0 then fail(world, "kiriSheet_GetCounts", result, false) end
+    if result < 0 then fail(world, "Sheet:getCounts", result, false) end
     return counts
 end
 
@@ -1148,7 +1150,7 @@ function Sheet:getTotals(totals)
     local world = self.world
     totals = totals or new.kiriTotals()
     local result = C.kiriSheet_GetTotals(world.c, self.id, totals)
-    if result < 0 then fail(world, "kiriSheet_GetTotals", result, false) end
+    if result < 0 then fail(world, "Sheet:getTotals", result, false) end
     return totals
 end
 
@@ -1157,7 +1159,7 @@ end
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
-    if result < 0 then fail(world, "kiriSheet_EstimateError", result, false) end
+    if result < 0 then fail(world, "Sheet:estimateError", result, false) end
     local relative = out.double[0]
     return relative
 end
@@ -1166,7 +1168,7 @@ end
 function Sheet:isAwake()
     local world = self.world
     local result = C.kiriSheet_IsAwake(world.c, self.id, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_IsAwake", result, false) end
+    if result < 0 then fail(world, "Sheet:isAwake", result, false) end
     local awake = out.int32_t[0] ~= 0
     return awake
 end
@@ -1175,7 +1177,7 @@ end
 function Sheet:wake()
     local world = self.world
     local result = C.kiriSheet_Wake(world.c, self.id)
-    if result < 0 then fail(world, "kiriSheet_Wake", result, true) end
+    if result < 0 then fail(world, "Sheet:wake", result, true) end
     return result == 1
 end
 
@@ -1184,7 +1186,7 @@ end
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
-    if result < 0 then fail(world, "kiriSheet_Transform", result, true) end
+    if result < 0 then fail(world, "Sheet:transform", result, true) end
     return result == 1
 end
 
@@ -1194,7 +1196,7 @@ end
 function Sheet:setVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriSheet_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
-    if result < 0 then fail(world, "kiriSheet_SetVelocity", result, true) end
+    if result < 0 then fail(world, "Sheet:setVelocity", result, true) end
     return result == 1
 end
 
@@ -1204,7 +1206,7 @@ end
 function Frame:setPieceVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriFrame_SetPieceVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
-    if result < 0 then fail(world, "kiriFrame_SetPieceVelocity", result, true) end
+    if result < 0 then fail(world, "Frame:setPieceVelocity", result, true) end
     return result == 1
 end
 
@@ -1214,7 +1216,7 @@ end
 function Sheet:setUserData(data)
     local world = self.world
     local result = C.kiriSheet_SetUserData(world.c, self.id, data)
-    if result < 0 then fail(world, "kiriSheet_SetUserData", result, true) end
+    if result < 0 then fail(world, "Sheet:setUserData", result, true) end
     return result == 1
 end
 
@@ -1224,7 +1226,7 @@ end
 function Sheet:getUserData()
     local world = self.world
     local result = C.kiriSheet_GetUserData(world.c, self.id, out.uint64_t)
-    if result < 0 then fail(world, "kiriSheet_GetUserData", result, false) end
+    if result < 0 then fail(world, "Sheet:getUserData", result, false) end
     local data = out.uint64_t[0]
     return data
 end
@@ -1235,7 +1237,7 @@ end
 function Pin:setUserData(data)
     local world = self.world
     local result = C.kiriPin_SetUserData(world.c, self.id, data)
-    if result < 0 then fail(world, "kiriPin_SetUserData", result, true) end
+    if result < 0 then fail(world, "Pin:setUserData", result, true) end
     return result == 1
 end
 
@@ -1245,7 +1247,7 @@ end
 function Pin:getUserData()
     local world = self.world
     local result = C.kiriPin_GetUserData(world.c, self.id, out.uint64_t)
-    if result < 0 then fail(world, "kiriPin_GetUserData", result, false) end
+    if result < 0 then fail(world, "Pin:getUserData", result, false) end
     local data = out.uint64_t[0]
     return data
 end
@@ -1256,7 +1258,7 @@ end
 function Frame:setPieceUserData(data)
     local world = self.world
     local result = C.kiriFrame_SetPieceUserData(world.c, self.id, data)
-    if result < 0 then fail(world, "kiriFrame_SetPieceUserData", result, true) end
+    if result < 0 then fail(world, "Frame:setPieceUserData", result, true) end
     return result == 1
 end
 
@@ -1266,7 +1268,7 @@ end
 function Frame:getPieceUserData()
     local world = self.world
     local result = C.kiriFrame_GetPieceUserData(world.c, self.id, out.uint64_t)
-    if result < 0 then fail(world, "kiriFrame_GetPieceUserData", result, false) end
+    if result < 0 then fail(world, "Frame:getPieceUserData", result, false) end
     local data = out.uint64_t[0]
     return data
 end
@@ -1276,7 +1278,7 @@ function Sheet:raycast(origin, direction, maxDistance, hit)
     local world = self.world
     hit = hit or new.kiriHit()
     local result = C.kiriSheet_Raycast(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), maxDistance, hit)
-    if result < 0 then fail(world, "kiriSheet_Raycast", result, false) end
+    if result < 0 then fail(world, "Sheet:raycast", result, false) end
     return hit
 end
 
@@ -1285,7 +1287,7 @@ function World:raycast(origin, direction, maxDistance, hit)
     local world = self
     hit = hit or new.kiriHit()
     local result = C.kiriWorld_Raycast(world.c, vector(1, origin, 3), vector(2, direction, 3), maxDistance, out.Sheet, hit)
-    if result < 0 then fail(world, "kiriWorld_Raycast", result, false) end
+    if result < 0 then fail(world, "World:raycast", result, false) end
     return handle(world, out.Sheet[0], "Sheet"), hit
 end
 
@@ -1294,7 +1296,7 @@ function Sheet:getPoint(restPoint, state)
     local world = self.world
     state = state or new.kiriPointStateView()
     local result = C.kiriSheet_GetPoint(world.c, self.id, vector(1, restPoint, 2), state.c)
-    if result < 0 then fail(world, "kiriSheet_GetPoint", result, false) end
+    if result < 0 then fail(world, "Sheet:getPoint", result, false) end
     state.world, state.epoch = world.cell, now[world.cell]
     return state
 end
@@ -1304,7 +1306,7 @@ end
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetWeights", result, false) end
+    if result < 0 then fail(world, "Sheet:getWeights", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getWeights(self, restPoint) end
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame"), list_of(world, room.float, out.int32_t[0], nil), list_of(world, room.float2, out.int32_t[0] * 2, nil)
 end
@@ -1314,7 +1316,7 @@ function Sheet:getPiece(piece, state)
     local world = self.world
     state = state or new.kiriPieceState()
     local result = C.kiriSheet_GetPiece(world.c, self.id, piece, state)
-    if result < 0 then fail(world, "kiriSheet_GetPiece", result, true) end
+    if result < 0 then fail(world, "Sheet:getPiece", result, true) end
     return state
 end
 
@@ -1323,7 +1325,7 @@ function Sheet:getPieceMesh(piece, mesh)
     local world = self.world
     mesh = mesh or new.kiriPieceMeshView()
     local result = C.kiriSheet_GetPieceMesh(world.c, self.id, piece, mesh.c)
-    if result < 0 then fail(world, "kiriSheet_GetPieceMesh", result, true) end
+    if result < 0 then fail(world, "Sheet:getPieceMesh", result, true) end
     mesh.world, mesh.epoch = world.cell, now[world.cell]
     return mesh
 end
@@ -1332,7 +1334,7 @@ end
 function Sheet:getPieceFrames(piece)
     local world = self.world
     local result = C.kiriSheet_GetPieceFrames(world.c, self.id, piece, out.kiriFrameRows, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetPieceFrames", result, true) end
+    if result < 0 then fail(world, "Sheet:getPieceFrames", result, true) end
     return new.kiriFrameArray(out.kiriFrameRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
@@ -1340,7 +1342,7 @@ end
 function Frame:getPiece()
     local world = self.world
     local result = C.kiriFrame_GetPiece(world.c, self.id, out.int32_t)
-    if result < 0 then fail(world, "kiriFrame_GetPiece", result, false) end
+    if result < 0 then fail(world, "Frame:getPiece", result, false) end
     local piece = out.int32_t[0]
     return piece
 end
@@ -1353,7 +1355,7 @@ end
 function Frame:detachPiece()
     local world = self.world
     local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
-    if result < 0 then fail(world, "kiriFrame_DetachPiece", result, true) end
+    if result < 0 then fail(world, "Frame:detachPiece", result, true) end
     return handle(world, out.Sheet[0], "Sheet")
 end
 
@@ -1362,7 +1364,7 @@ end
 function Frame:destroyPiece()
     local world = self.world
     local result = C.kiriFrame_DestroyPiece(world.c, self.id)
-    if result < 0 then fail(world, "kiriFrame_DestroyPiece", result, true) end
+    if result < 0 then fail(world, "Frame:destroyPiece", result, true) end
     return result == 1
 end
 
@@ -1374,7 +1376,7 @@ function World:detachPieces(frames, count)
     frames, count = ids_of(world, frames, count, "kiriFrame")
     local detached = ffi.new("kiriSheet[?]", count)
     local result = C.kiriWorld_DetachPieces(world.c, frames, count, detached)
-    if result < 0 then fail(world, "kiriWorld_DetachPieces", result, true) end
+    if result < 0 then fail(world, "World:detachPieces", result, true) end
     return list_of(world, detached, count, "Sheet", false)
 end
 
@@ -1385,7 +1387,7 @@ function World:destroyPieces(frames, count)
     local world = self
     frames, count = ids_of(world, frames, count, "kiriFrame")
     local result = C.kiriWorld_DestroyPieces(world.c, frames, count)
-    if result < 0 then fail(world, "kiriWorld_DestroyPieces", result, true) end
+    if result < 0 then fail(world, "World:destroyPieces", result, true) end
     return result == 1
 end
 
@@ -1393,7 +1395,7 @@ end
 function Sheet:dropCrumbs(area)
     local world = self.world
     local result = C.kiriSheet_DropCrumbs(world.c, self.id, area, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_DropCrumbs", result, true) end
+    if result < 0 then fail(world, "Sheet:dropCrumbs", result, true) end
     local count = out.int32_t[0]
     return count
 end
@@ -1405,7 +1407,7 @@ end
 function Sheet:beginCut(restPoint)
     local world = self.world
     local result = C.kiriBeginCut(world.c, self.id, vector(1, restPoint, 2), out.Cut)
-    if result < 0 then fail(world, "kiriBeginCut", result, true) end
+    if result < 0 then fail(world, "Sheet:beginCut", result, true) end
     return handle(world, out.Cut[0], "Cut")
 end
 
@@ -1417,7 +1419,7 @@ function Cut:extend(restPoints, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)
     local result = C.kiriCut_Extend(world.c, self.id, restPoints, count)
-    if result < 0 then fail(world, "kiriCut_Extend", result, true) end
+    if result < 0 then fail(world, "Cut:extend", result, true) end
     return result == 1
 end
 
@@ -1428,7 +1430,7 @@ end
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
-    if result < 0 then fail(world, "kiriCut_End", result, true) end
+    if result < 0 then fail(world, "Cut:finish", result, true) end
     return result == 1
 end
 
@@ -1437,7 +1439,7 @@ end
 function Sheet:slice(blade)
     local world = self.world
     local result = C.kiriSheet_Slice(world.c, self.id, vector(1, blade, 12), out.Cut)
-    if result < 0 then fail(world, "kiriSheet_Slice", result, true) end
+    if result < 0 then fail(world, "Sheet:slice", result, true) end
     return handle(world, out.Cut[0], "Cut")
 end
 
@@ -1445,7 +1447,7 @@ end
 function Sheet:setTearing(tearing)
     local world = self.world
     local result = C.kiriSheet_SetTearing(world.c, self.id, struct_of(world, tearing, "kiriTearing"))
-    if result < 0 then fail(world, "kiriSheet_SetTearing", result, true) end
+    if result < 0 then fail(world, "Sheet:setTearing", result, true) end
     return result == 1
 end
 
@@ -1454,7 +1456,7 @@ function Sheet:getTearing(tearing)
     local world = self.world
     tearing = tearing or new.kiriTearing()
     local result = C.kiriSheet_GetTearing(world.c, self.id, tearing)
-    if result < 0 then fail(world, "kiriSheet_GetTearing", result, false) end
+    if result < 0 then fail(world, "Sheet:getTearing", result, false) end
     return tearing
 end
 
@@ -1465,7 +1467,7 @@ function Sheet:setTearLine(restPoints, factor, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)
     local result = C.kiriSheet_SetTearLine(world.c, self.id, restPoints, count, factor)
-    if result < 0 then fail(world, "kiriSheet_SetTearLine", result, true) end
+    if result < 0 then fail(world, "Sheet:setTearLine", result, true) end
     return result == 1
 end
 
@@ -1475,7 +1477,7 @@ end
 function World:beginBlade(sheet)
     local world = self
     local result = C.kiriBeginBlade(world.c, id_of(world, sheet, "Sheet"), out.Blade)
-    if result < 0 then fail(world, "kiriBeginBlade", result, true) end
+    if result < 0 then fail(world, "World:beginBlade", result, true) end
     return handle(world, out.Blade[0], "Blade")
 end
 
@@ -1484,7 +1486,7 @@ end
 function Blade:moveEdge(from, to)
     local world = self.world
     local result = C.kiriBlade_MoveEdge(world.c, self.id, vector(1, from, 3), vector(2, to, 3))
-    if result < 0 then fail(world, "kiriBlade_MoveEdge", result, true) end
+    if result < 0 then fail(world, "Blade:moveEdge", result, true) end
     return result == 1
 end
 
@@ -1493,7 +1495,7 @@ end
 function Blade:moveRay(origin, direction, length)
     local world = self.world
     local result = C.kiriBlade_MoveRay(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), length)
-    if result < 0 then fail(world, "kiriBlade_MoveRay", result, true) end
+    if result < 0 then fail(world, "Blade:moveRay", result, true) end
     return result == 1
 end
 
@@ -1502,7 +1504,7 @@ end
 function Blade:finish()
     local world = self.world
     local result = C.kiriBlade_End(world.c, self.id)
-    if result < 0 then fail(world, "kiriBlade_End", result, true) end
+    if result < 0 then fail(world, "Blade:finish", result, true) end
     return result == 1
 end
 
@@ -1510,7 +1512,7 @@ end
 function Sheet:getFrames()
     local world = self.world
     local result = C.kiriSheet_GetFrames(world.c, self.id, room.kiriFrame, room.size, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetFrames", result, false) end
+    if result < 0 then fail(world, "Sheet:getFrames", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getFrames(self) end
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame")
 end
@@ -1520,7 +1522,7 @@ end
 function Frame:hold(position, rotation)
     local world = self.world
     local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
-    if result < 0 then fail(world, "kiriFrame_Hold", result, true) end
+    if result < 0 then fail(world, "Frame:hold", result, true) end
     return result == 1
 end
 
@@ -1531,7 +1533,7 @@ function Frame:getState(state)
     local world = self.world
     state = state or new.kiriFrameState()
     local result = C.kiriFrame_GetState(world.c, self.id, state)
-    if result < 0 then fail(world, "kiriFrame_GetState", result, false) end
+    if result < 0 then fail(world, "Frame:getState", result, false) end
     return state
 end
 
@@ -1543,7 +1545,7 @@ function Frame:getReaction(force, torque)
     force = force or ffi.new("double[?]", 3)
     torque = torque or ffi.new("double[?]", 3)
     local result = C.kiriFrame_GetReaction(world.c, self.id, force, torque)
-    if result < 0 then fail(world, "kiriFrame_GetReaction", result, false) end
+    if result < 0 then fail(world, "Frame:getReaction", result, false) end
     return force, torque
 end
 
@@ -1551,7 +1553,7 @@ end
 function Frame:applyForce(force, torque)
     local world = self.world
     local result = C.kiriFrame_ApplyForce(world.c, self.id, vector(1, force, 3), vector(2, torque, 3))
-    if result < 0 then fail(world, "kiriFrame_ApplyForce", result, true) end
+    if result < 0 then fail(world, "Frame:applyForce", result, true) end
     return result == 1
 end
 
@@ -1559,7 +1561,7 @@ end
 function Sheet:applyForce(restPoint, force, torque)
     local world = self.world
     local result = C.kiriSheet_ApplyForce(world.c, self.id, vector(1, restPoint, 2), vector(2, force, 3), vector(3, torque, 3))
-    if result < 0 then fail(world, "kiriSheet_ApplyForce", result, true) end
+    if result < 0 then fail(world, "Sheet:applyForce", result, true) end
     return result == 1
 end
 
@@ -1568,7 +1570,7 @@ end
 function Sheet:applyLineLoad(from, to, forcePerLength)
     local world = self.world
     local result = C.kiriSheet_ApplyLineLoad(world.c, self.id, vector(1, from, 2), vector(2, to, 2), vector(3, forcePerLength, 3))
-    if result < 0 then fail(world, "kiriSheet_ApplyLineLoad", result, true) end
+    if result < 0 then fail(world, "Sheet:applyLineLoad", result, true) end
     return result == 1
 end
 
@@ -1576,7 +1578,7 @@ end
 function Sheet:applyPressure(pressure)
     local world = self.world
     local result = C.kiriSheet_ApplyPressure(world.c, self.id, pressure)
-    if result < 0 then fail(world, "kiriSheet_ApplyPressure", result, true) end
+    if result < 0 then fail(world, "Sheet:applyPressure", result, true) end
     return result == 1
 end
 
@@ -1585,7 +1587,7 @@ end
 function Sheet:applyImpulse(restPoint, impulse)
     local world = self.world
     local result = C.kiriSheet_ApplyImpulse(world.c, self.id, vector(1, restPoint, 2), vector(2, impulse, 3))
-    if result < 0 then fail(world, "kiriSheet_ApplyImpulse", result, true) end
+    if result < 0 then fail(world, "Sheet:applyImpulse", result, true) end
     return result == 1
 end
 
@@ -1593,7 +1595,7 @@ end
 function Sheet:setWind(wind)
     local world = self.world
     local result = C.kiriSheet_SetWind(world.c, self.id, struct_of(world, wind, "kiriWind"))
-    if result < 0 then fail(world, "kiriSheet_SetWind", result, true) end
+    if result < 0 then fail(world, "Sheet:setWind", result, true) end
     return result == 1
 end
 
@@ -1608,7 +1610,7 @@ end
 function Sheet:createPin(def)
     local world = self.world
     local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
-    if result < 0 then fail(world, "kiriCreatePin", result, true) end
+    if result < 0 then fail(world, "Sheet:createPin", result, true) end
     return handle(world, out.Pin[0], "Pin")
 end
 
@@ -1616,7 +1618,7 @@ end
 function Pin:destroy()
     local world = self.world
     local result = C.kiriDestroyPin(world.c, self.id)
-    if result < 0 then fail(world, "kiriDestroyPin", result, true) end
+    if result < 0 then fail(world, "Pin:destroy", result, true) end
     return result == 1
 end
 
@@ -1625,7 +1627,7 @@ end
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
-    if result < 0 then fail(world, "kiriSheet_ClampLine", result, true) end
+    if result < 0 then fail(world, "Sheet:clampLine", result, true) end
     return handle(world, out.Pin[0], "Pin")
 end
 
@@ -1634,7 +1636,7 @@ end
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
-    if result < 0 then fail(world, "kiriSheet_HingeLine", result, true) end
+    if result < 0 then fail(world, "Sheet:hingeLine", result, true) end
     return handle(world, out.Pin[0], "Pin")
 end
 
@@ -1644,7 +1646,7 @@ end
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
-    if result < 0 then fail(world, "kiriPin_SetTarget", result, true) end
+    if result < 0 then fail(world, "Pin:setTarget", result, true) end
     return result == 1
 end
 
@@ -1654,7 +1656,7 @@ end
 function Pin:setPose(target, rotation)
     local world = self.world
     local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))
-    if result < 0 then fail(world, "kiriPin_SetPose", result, true) end
+    if result < 0 then fail(world, "Pin:setPose", result, true) end
     return result == 1
 end
 
@@ -1662,7 +1664,7 @@ end
 function Pin:setBreakForce(breakForce)
     local world = self.world
     local result = C.kiriPin_SetBreakForce(world.c, self.id, breakForce)
-    if result < 0 then fail(world, "kiriPin_SetBreakForce", result, true) end
+    if result < 0 then fail(world, "Pin:setBreakForce", result, true) end
     return result == 1
 end
 
@@ -1672,7 +1674,7 @@ function Pin:getState(state)
     local world = self.world
     state = state or new.kiriPinStateView()
     local result = C.kiriPin_GetState(world.c, self.id, state.c)
-    if result < 0 then fail(world, "kiriPin_GetState", result, false) end
+    if result < 0 then fail(world, "Pin:getState", result, false) end
     state.world, state.epoch = world.cell, now[world.cell]
     return state
 end
@@ -1684,7 +1686,7 @@ function Pin:getReaction(force, torque)
     force = force or ffi.new("double[?]", 3)
     torque = torque or ffi.new("double[?]", 3)
     local result = C.kiriPin_GetReaction(world.c, self.id, force, torque)
-    if result < 0 then fail(world, "kiriPin_GetReaction", result, false) end
+    if result < 0 then fail(world, "Pin:getReaction", result, false) end
     return force, torque
 end
 
@@ -1692,7 +1694,7 @@ end
 function Sheet:getPins()
     local world = self.world
     local result = C.kiriSheet_GetPins(world.c, self.id, room.kiriPin, room.size, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetPins", result, false) end
+    if result < 0 then fail(world, "Sheet:getPins", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getPins(self) end
     return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
 end
@@ -1710,7 +1712,7 @@ end
 function World:createSeam(def)
     local world = self
     local result = C.kiriCreateSeam(world.c, struct_of(world, def, "kiriSeamDef"), out.Seam)
-    if result < 0 then fail(world, "kiriCreateSeam", result, true) end
+    if result < 0 then fail(world, "World:createSeam", result, true) end
     return handle(world, out.Seam[0], "Seam")
 end
 
@@ -1719,7 +1721,7 @@ end
 function Seam:destroy()
     local world = self.world
     local result = C.kiriDestroySeam(world.c, self.id)
-    if result < 0 then fail(world, "kiriDestroySeam", result, true) end
+    if result < 0 then fail(world, "Seam:destroy", result, true) end
     return result == 1
 end
 
@@ -1728,7 +1730,7 @@ end
 function Seam:setHinge(stiffness, restAngle)
     local world = self.world
     local result = C.kiriSeam_SetHinge(world.c, self.id, stiffness, restAngle)
-    if result < 0 then fail(world, "kiriSeam_SetHinge", result, true) end
+    if result < 0 then fail(world, "Seam:setHinge", result, true) end
     return result == 1
 end
 
@@ -1737,7 +1739,7 @@ function Seam:getStitch(index, stitch)
     local world = self.world
     stitch = stitch or new.kiriStitchView()
     local result = C.kiriSeam_GetStitch(world.c, self.id, index, stitch.c)
-    if result < 0 then fail(world, "kiriSeam_GetStitch", result, false) end
+    if result < 0 then fail(world, "Seam:getStitch", result, false) end
     stitch.world, stitch.epoch = world.cell, now[world.cell]
     return stitch
 end
@@ -1746,7 +1748,7 @@ end
 function Seam:getCount()
     local world = self.world
     local result = C.kiriSeam_GetCount(world.c, self.id, out.int32_t)
-    if result < 0 then fail(world, "kiriSeam_GetCount", result, false) end
+    if result < 0 then fail(world, "Seam:getCount", result, false) end
     local stitches = out.int32_t[0]
     return stitches
 end
@@ -1755,7 +1757,7 @@ end
 function World:getSeams()
     local world = self
     local result = C.kiriWorld_GetSeams(world.c, room.kiriSeam, room.size, out.int32_t)
-    if result < 0 then fail(world, "kiriWorld_GetSeams", result, false) end
+    if result < 0 then fail(world, "World:getSeams", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return World.getSeams(self) end
     return list_of(world, room.kiriSeam, out.int32_t[0], "Seam")
 end
@@ -1765,7 +1767,7 @@ function Sheet:setContacts(contacts, count)
     local world = self.world
     contacts, count = rows_of(contacts, count, "kiriContact", 1)
     local result = C.kiriSheet_SetContacts(world.c, self.id, contacts, count)
-    if result < 0 then fail(world, "kiriSheet_SetContacts", result, true) end
+    if result < 0 then fail(world, "Sheet:setContacts", result, true) end
     return result == 1
 end
 
@@ -1773,7 +1775,7 @@ end
 function Sheet:getContactForces()
     local world = self.world
     local result = C.kiriSheet_GetContactForces(world.c, self.id, out.kiriContactForceRows, out.int32_t)
-    if result < 0 then fail(world, "kiriSheet_GetContactForces", result, false) end
+    if result < 0 then fail(world, "Sheet:getContactForces", result, false) end
     return new.kiriContactForceArray(out.kiriContactForceRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
@@ -1788,7 +1790,7 @@ end
 function World:createObstacle(def)
     local world = self
     local result = C.kiriCreateObstacle(world.c, struct_of(world, def, "kiriObstacleDef"), out.Obstacle)
-    if result < 0 then fail(world, "kiriCreateObstacle", result, true) end
+    if result < 0 then fail(world, "World:createObstacle", result, true) end
     return handle(world, out.Obstacle[0], "Obstacle")
 end
 
@@ -1796,7 +1798,7 @@ end
 function Obstacle:destroy()
     local world = self.world
     local result = C.kiriDestroyObstacle(world.c, self.id)
-    if result < 0 then fail(world, "kiriDestroyObstacle", result, true) end
+    if result < 0 then fail(world, "Obstacle:destroy", result, true) end
     return result == 1
 end
 
@@ -1804,7 +1806,7 @@ end
 function Obstacle:setPose(position, rotation)
     local world = self.world
     local result = C.kiriObstacle_SetPose(world.c, self.id, vector(1, position, 3), vector(2, rotation, 9))
-    if result < 0 then fail(world, "kiriObstacle_SetPose", result, true) end
+    if result < 0 then fail(world, "Obstacle:setPose", result, true) end
     return result == 1
 end
 
@@ -1812,7 +1814,7 @@ end
 function Obstacle:setVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriObstacle_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
-    if result < 0 then fail(world, "kiriObstacle_SetVelocity", result, true) end
+    if result < 0 then fail(world, "Obstacle:setVelocity", result, true) end
     return result == 1
 end
 
@@ -1820,7 +1822,7 @@ end
 function Obstacle:setSurfaceVelocity(velocity)
     local world = self.world
     local result = C.kiriObstacle_SetSurfaceVelocity(world.c, self.id, vector(1, velocity, 3))
-    if result < 0 then fail(world, "kiriObstacle_SetSurfaceVelocity", result, true) end
+    if result < 0 then fail(world, "Obstacle:setSurfaceVelocity", result, true) end
     return result == 1
 end
 
@@ -1828,7 +1830,7 @@ end
 function Obstacle:setMass(mass, inertia, centerOfMass)
     local world = self.world
     local result = C.kiriObstacle_SetMass(world.c, self.id, mass, vector(1, inertia, 6), vector(2, centerOfMass, 3))
-    if result < 0 then fail(world, "kiriObstacle_SetMass", result, true) end
+    if result < 0 then fail(world, "Obstacle:setMass", result, true) end
     return result == 1
 end
 
@@ -1837,7 +1839,7 @@ function Obstacle:getState(state)
     local world = self.world
     state = state or new.kiriObstacleState()
     local result = C.kiriObstacle_GetState(world.c, self.id, state)
-    if result < 0 then fail(world, "kiriObstacle_GetState", result, false) end
+    if result < 0 then fail(world, "Obstacle:getState", result, false) end
     return state
 end
 
@@ -1847,7 +1849,7 @@ function Sheet:getReach(dt, lower, upper)
     lower = lower or ffi.new("float[?]", 3)
     upper = upper or ffi.new("float[?]", 3)
     local result = C.kiriSheet_GetReach(world.c, self.id, dt, lower, upper)
-    if result < 0 then fail(world, "kiriSheet_GetReach", result, false) end
+    if result < 0 then fail(world, "Sheet:getReach", result, false) end
     return lower, upper
 end
 
@@ -1903,7 +1905,7 @@ local function debug_draw(world, draw)
     end
     local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, given, "kiriDebugDraw"))
     raise()
-    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
+    if result < 0 then fail(world, "World:debugDraw", result, false) end
 end
 jit.off(debug_draw)
 
@@ -1998,7 +2000,7 @@ local function create_world(_, def)
     local result = C.kiriCreateWorld(struct_of(nil, given, "kiriWorldDef"), made)
     if result < 0 then
         free_cells[#free_cells + 1] = cell
-        fail(nil, "kiriCreateWorld", result, false)
+        fail(nil, "World", result, false)
     end
     world.free = function(c)
         C.kiriDestroyWorld(c)

@@ -90,12 +90,14 @@ end
 
 local this_file = debug.getinfo(1, "S").source
 
-local function fail(world, name, result, changes)
+-- A line of C begins with its name for the call, and ends with the code.
+local function fail(world, call, result, changes)
     local line = world and not world.c and "the world is gone" or ""
     if world and world.c then
         line = changes and ffi.string(C.kiriWorld_GetLastError(world.c)) or world.said.line or ""
         world.said.line = nil
     end
+    line = line:gsub("^kiri[%w_]+: ", ""):gsub(" %(KIRI_[%u_]+%)$", "")
     local level, place = 2, ""
     for i = 2, 8 do
         local info = debug.getinfo(i, "Sl")
@@ -104,9 +106,9 @@ local function fail(world, name, result, changes)
             break
         end
     end
-    local named = ffi.string(C.kiriGetResultName(result))
-    error(setmetatable({result = result, name = named, line = line, call = name, message =
-        ("%s%s: %s: %s"):format(place, name, named, line ~= "" and line or ffi.string(C.kiriGetResultText(result)))},
+    local named = ffi.string(C.kiriGetResultName(result)):gsub("^KIRI_", "")
+    error(setmetatable({result = result, name = named, line = line, call = call, message =
+        ("%s%s: %s (%s)"):format(place, call, line ~= "" and line or ffi.string(C.kiriGetResultText(result)), named)},
         Error), level)
 end
 
@@ -419,7 +421,7 @@ local function debug_draw(world, draw)
     end
     local result = C.kiriWorld_DebugDraw(world.c, struct_of(world, given, "kiriDebugDraw"))
     raise()
-    if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
+    if result < 0 then fail(world, "World:debugDraw", result, false) end
 end
 jit.off(debug_draw)
 
@@ -514,7 +516,7 @@ local function create_world(_, def)
     local result = C.kiriCreateWorld(struct_of(nil, given, "kiriWorldDef"), made)
     if result < 0 then
         free_cells[#free_cells + 1] = cell
-        fail(nil, "kiriCreateWorld", result, false)
+        fail(nil, "World", result, false)
     end
     world.free = function(c)
         C.kiriDestroyWorld(c)

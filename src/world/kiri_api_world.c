@@ -139,8 +139,7 @@ static const struct {
       "the id is unknown, stale or of another kind: what it named may be destroyed, detached or done" },
     { "KIRI_ERROR_DEF", "the struct was not filled by this library version: call kiriDefaultWorldDef, "
                         "kiriDefaultSheetDef or the like before setting fields; for settings kiriSheet_GetSettings" },
-    { "KIRI_ERROR_ARGUMENT", "a pointer or the world is null, or a number is NaN, infinite or out of range: "
-                             "kiriWorld_GetLastError, or the log, says which" },
+    { "KIRI_ERROR_ARGUMENT", "a pointer or the world is null, or a number is NaN, infinite or out of range" },
     { "KIRI_OK", "done" },
     { "KIRI_PENDING", "done, and work is left: call kiriWorld_Tick again" },
 };

@@ -311,7 +311,7 @@ static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
     kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
     kiriArchive_Object(&archive, SaveHeadTable, &head);
     if (archive.isBad || memcmp(head.magic, saveMagic, sizeof(head.magic)) != 0) {
-        return "these bytes are no save of kiriWorld_Save";
+        return "these bytes are no save";
     }
     if (head.version != SAVE_VERSION || head.library != KIRI_VERSION) {
         return "the bytes are of another version of the library";

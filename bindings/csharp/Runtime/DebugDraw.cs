@@ -26,7 +26,7 @@ namespace Kiri
                 what.Lines = Marshal.GetFunctionPointerForDelegate(onLines);
                 what.Triangles = Marshal.GetFunctionPointerForDelegate(onTriangles);
                 what.user = GCHandle.ToIntPtr(user).ToPointer();
-                CheckRead(Native.kiriWorld_DebugDraw(Handle, &what));
+                CheckRead(Native.kiriWorld_DebugDraw(Handle, &what), "World.DebugDraw");
             }
             finally { user.Free(); }
         }

@@ -492,7 +492,7 @@ namespace Kiri
         {
             int result;
             EndViews();
-            result = Check(Native.kiriWorld_Tick(Handle, dt, substeps));
+            result = Check(Native.kiriWorld_Tick(Handle, dt, substeps), "World.Tick");
             return result == 0 ? Status.Done : Status.Pending;
         }
 
@@ -501,19 +501,19 @@ namespace Kiri
         /// fit a float.</summary>
         public void ShiftOrigin(Float3 origin)
         {
-            Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin));
+            Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin), "World.ShiftOrigin");
         }
 
         /// <summary>Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.</summary>
         public void SetGravity(Float3 gravity)
         {
-            Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity));
+            Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity), "World.SetGravity");
         }
 
         /// <summary>Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.</summary>
         public void SetBudget(Budget budget)
         {
-            Check(Native.kiriWorld_SetBudget(Handle, &budget));
+            Check(Native.kiriWorld_SetBudget(Handle, &budget), "World.SetBudget");
         }
 
         /// <summary>Hashes all state that the coming ticks depend on: two worlds with the same hash go on alike (manual,
@@ -521,7 +521,7 @@ namespace Kiri
         public ulong GetStateHash()
         {
             ulong hashValue = 0;
-            CheckRead(Native.kiriWorld_GetStateHash(Handle, &hashValue));
+            CheckRead(Native.kiriWorld_GetStateHash(Handle, &hashValue), "World.GetStateHash");
             return hashValue;
         }
 
@@ -532,7 +532,7 @@ namespace Kiri
             int count = 0;
             fixed (SheetId* sheetsRows = sheets)
             {
-                CheckRead(Native.kiriWorld_GetSheets(Handle, sheetsRows, (sheets == null ? 0 : sheets.Length), &count));
+                CheckRead(Native.kiriWorld_GetSheets(Handle, sheetsRows, (sheets == null ? 0 : sheets.Length), &count), "World.GetSheets");
             }
             return count;
         }
@@ -550,7 +550,7 @@ namespace Kiri
         {
             fixed (byte* bytesRows = bytes)
             {
-                Check(Native.kiriWorld_Note(Handle, bytesRows, bytes.Length));
+                Check(Native.kiriWorld_Note(Handle, bytesRows, bytes.Length), "World.Note");
             }
         }
 
@@ -561,7 +561,7 @@ namespace Kiri
             long size = 0;
             fixed (byte* bytesRows = bytes)
             {
-                CheckRead(Native.kiriWorld_Save(Handle, bytesRows, (bytes == null ? 0 : bytes.Length), &size));
+                CheckRead(Native.kiriWorld_Save(Handle, bytesRows, (bytes == null ? 0 : bytes.Length), &size), "World.Save");
             }
             return size;
         }
@@ -578,7 +578,7 @@ namespace Kiri
         /// kiriWorld_Tick.</summary>
         public void FinishCuts()
         {
-            Check(Native.kiriWorld_FinishCuts(Handle));
+            Check(Native.kiriWorld_FinishCuts(Handle), "World.FinishCuts");
         }
 
         /// <summary>Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save
@@ -589,7 +589,7 @@ namespace Kiri
         {
             fixed (byte* bytesRows = bytes)
             {
-                Check(Native.kiriWorld_Load(Handle, bytesRows, bytes.Length));
+                Check(Native.kiriWorld_Load(Handle, bytesRows, bytes.Length), "World.Load");
             }
         }
 
@@ -601,7 +601,7 @@ namespace Kiri
             long size = 0;
             fixed (byte* bytesRows = bytes)
             {
-                CheckRead(Native.kiriWorld_Snapshot(Handle, bytesRows, (bytes == null ? 0 : bytes.Length), &size));
+                CheckRead(Native.kiriWorld_Snapshot(Handle, bytesRows, (bytes == null ? 0 : bytes.Length), &size), "World.Snapshot");
             }
             return size;
         }
@@ -620,7 +620,7 @@ namespace Kiri
         {
             fixed (byte* bytesRows = bytes)
             {
-                Check(Native.kiriWorld_Restore(Handle, bytesRows, bytes.Length));
+                Check(Native.kiriWorld_Restore(Handle, bytesRows, bytes.Length), "World.Restore");
             }
         }
 
@@ -629,7 +629,7 @@ namespace Kiri
         {
             Event* eventsValue = null;
             int count = 0;
-            CheckRead(Native.kiriWorld_GetEvents(Handle, &eventsValue, &count));
+            CheckRead(Native.kiriWorld_GetEvents(Handle, &eventsValue, &count), "World.GetEvents");
             return new EventView(this, eventsValue, count);
         }
 
@@ -637,7 +637,7 @@ namespace Kiri
         public Profile GetProfile()
         {
             var profileValue = new Profile();
-            CheckRead(Native.kiriWorld_GetProfile(Handle, &profileValue));
+            CheckRead(Native.kiriWorld_GetProfile(Handle, &profileValue), "World.GetProfile");
             return profileValue;
         }
 
@@ -657,7 +657,7 @@ namespace Kiri
                 @def.restPositions = restPositionsRows;
                 @def.indices = indicesRows;
                 @def.framePoints = framePointsRows;
-                Check(Native.kiriCreateSheet(Handle, &@def, &sheetValue));
+                Check(Native.kiriCreateSheet(Handle, &@def, &sheetValue), "World.CreateSheet");
             }
             return new Sheet(this, sheetValue);
         }
@@ -669,7 +669,7 @@ namespace Kiri
         {
             SheetDef defValue = @def.GetValueOrDefault();
             var sheetValue = new SheetId();
-            Check(Native.kiriCreateRectangle(Handle, width, height, columns, rows, @def.HasValue ? &defValue : null, &sheetValue));
+            Check(Native.kiriCreateRectangle(Handle, width, height, columns, rows, @def.HasValue ? &defValue : null, &sheetValue), "World.CreateRectangle");
             return new Sheet(this, sheetValue);
         }
 
@@ -690,7 +690,7 @@ namespace Kiri
                 @def.restPositions = restPositionsRows;
                 @def.indices = indicesRows;
                 @def.framePoints = framePointsRows;
-                Check(Native.kiriCreateFoldedSheet(Handle, &@def, foldsRows, count, &sheetValue));
+                Check(Native.kiriCreateFoldedSheet(Handle, &@def, foldsRows, count, &sheetValue), "World.CreateFoldedSheet");
             }
             return new Sheet(this, sheetValue);
         }
@@ -701,7 +701,7 @@ namespace Kiri
         {
             var sheetValue = new SheetId();
             var hitValue = new Hit();
-            CheckRead(Native.kiriWorld_Raycast(Handle, (float*)&origin, (float*)&direction, maxDistance, &sheetValue, &hitValue));
+            CheckRead(Native.kiriWorld_Raycast(Handle, (float*)&origin, (float*)&direction, maxDistance, &sheetValue, &hitValue), "World.Raycast");
             sheet = new Sheet(this, sheetValue);
             hit = hitValue;
             return hitValue.Triangle >= 0;
@@ -719,7 +719,7 @@ namespace Kiri
             fixed (FrameId* framesRows = frames)
             fixed (SheetId* detachedRows = detached)
             {
-                result = Check(Native.kiriWorld_DetachPieces(Handle, framesRows, count, detachedRows));
+                result = Check(Native.kiriWorld_DetachPieces(Handle, framesRows, count, detachedRows), "World.DetachPieces");
             }
             return result == 0 ? Status.Done : Status.Pending;
         }
@@ -734,7 +734,7 @@ namespace Kiri
             if (count > frames.Length) World.ThrowRange();
             fixed (FrameId* framesRows = frames)
             {
-                result = Check(Native.kiriWorld_DestroyPieces(Handle, framesRows, count));
+                result = Check(Native.kiriWorld_DestroyPieces(Handle, framesRows, count), "World.DestroyPieces");
             }
             return result == 0 ? Status.Done : Status.Pending;
         }
@@ -745,7 +745,7 @@ namespace Kiri
         public Blade BeginBlade(SheetId sheet)
         {
             var bladeValue = new BladeId();
-            Check(Native.kiriBeginBlade(Handle, sheet, &bladeValue));
+            Check(Native.kiriBeginBlade(Handle, sheet, &bladeValue), "World.BeginBlade");
             return new Blade(this, bladeValue);
         }
 
@@ -762,7 +762,7 @@ namespace Kiri
             {
                 @def.lineA = lineARows;
                 @def.lineB = lineBRows;
-                Check(Native.kiriCreateSeam(Handle, &@def, &seamValue));
+                Check(Native.kiriCreateSeam(Handle, &@def, &seamValue), "World.CreateSeam");
             }
             return new Seam(this, seamValue);
         }
@@ -773,7 +773,7 @@ namespace Kiri
             int count = 0;
             fixed (SeamId* seamsRows = seams)
             {
-                CheckRead(Native.kiriWorld_GetSeams(Handle, seamsRows, (seams == null ? 0 : seams.Length), &count));
+                CheckRead(Native.kiriWorld_GetSeams(Handle, seamsRows, (seams == null ? 0 : seams.Length), &count), "World.GetSeams");
             }
             return count;
         }
@@ -793,7 +793,7 @@ namespace Kiri
             fixed (float* outlineRows = outline)
             {
                 @def.outline = outlineRows;
-                Check(Native.kiriCreateObstacle(Handle, &@def, &obstacleValue));
+                Check(Native.kiriCreateObstacle(Handle, &@def, &obstacleValue), "World.CreateObstacle");
             }
             return new Obstacle(this, obstacleValue);
         }
@@ -824,7 +824,7 @@ namespace Kiri
         {
             fixed (Budget* budgetValue = &budget)
             {
-                World.CheckStatic(Native.kiriFitBudget(&profile, microseconds, budgetValue));
+                World.CheckStatic(Native.kiriFitBudget(&profile, microseconds, budgetValue), "Library.FitBudget");
             }
         }
 
@@ -839,7 +839,7 @@ namespace Kiri
         public static Material GetMaterial(MaterialPreset preset)
         {
             var materialValue = new Material();
-            World.CheckStatic(Native.kiriGetMaterial((int)preset, &materialValue));
+            World.CheckStatic(Native.kiriGetMaterial((int)preset, &materialValue), "Library.GetMaterial");
             return materialValue;
         }
 
@@ -848,7 +848,7 @@ namespace Kiri
         public static Quality GetQuality(QualityPreset preset)
         {
             var qualityValue = new Quality();
-            World.CheckStatic(Native.kiriGetQuality((int)preset, &qualityValue));
+            World.CheckStatic(Native.kiriGetQuality((int)preset, &qualityValue), "Library.GetQuality");
             return qualityValue;
         }
 
@@ -857,7 +857,7 @@ namespace Kiri
         public static Setup GetSetup(SetupPreset preset, float width, float height)
         {
             var setupValue = new Setup();
-            World.CheckStatic(Native.kiriGetSetup((int)preset, width, height, &setupValue));
+            World.CheckStatic(Native.kiriGetSetup((int)preset, width, height, &setupValue), "Library.GetSetup");
             return setupValue;
         }
 
@@ -869,7 +869,7 @@ namespace Kiri
             fixed (float* restPositionsRows = restPositions)
             fixed (int* indicesRows = indices)
             {
-                World.CheckStatic(Native.kiriFillRectangle(width, height, columns, rows, restPositionsRows, indicesRows));
+                World.CheckStatic(Native.kiriFillRectangle(width, height, columns, rows, restPositionsRows, indicesRows), "Library.FillRectangle");
             }
         }
     }
@@ -891,7 +891,7 @@ namespace Kiri
         /// def.</summary>
         public void Destroy()
         {
-            World.Check(Native.kiriDestroySheet(World.Handle, Id));
+            World.Check(Native.kiriDestroySheet(World.Handle, Id), "Sheet.Destroy");
         }
 
         /// <summary>Get the current settings, and set all or none, with the checks of kiriCreateSheet. KIRI_ERROR_DEF: they do
@@ -899,7 +899,7 @@ namespace Kiri
         public SheetSettings GetSettings()
         {
             var settingsValue = new SheetSettings();
-            World.CheckRead(Native.kiriSheet_GetSettings(World.Handle, Id, &settingsValue));
+            World.CheckRead(Native.kiriSheet_GetSettings(World.Handle, Id, &settingsValue), "Sheet.GetSettings");
             return settingsValue;
         }
 
@@ -907,7 +907,7 @@ namespace Kiri
         /// not come from kiriSheet_GetSettings. It wakes if one differs. Motion, stiffness of pins and frames stay.</summary>
         public void SetSettings(SheetSettings settings)
         {
-            World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
+            World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings), "Sheet.SetSettings");
         }
 
         /// <summary>Adds a fold; its index is the count of folds before. The next ticks make it, on the budget of cuts, until a
@@ -915,7 +915,7 @@ namespace Kiri
         public int AddFold(Fold fold)
         {
             int indexValue = 0;
-            World.Check(Native.kiriSheet_AddFold(World.Handle, Id, &fold, &indexValue));
+            World.Check(Native.kiriSheet_AddFold(World.Handle, Id, &fold, &indexValue), "Sheet.AddFold");
             return indexValue;
         }
 
@@ -924,7 +924,7 @@ namespace Kiri
         public FoldState GetFold(int index)
         {
             var stateValue = new FoldState();
-            World.CheckRead(Native.kiriSheet_GetFold(World.Handle, Id, index, &stateValue));
+            World.CheckRead(Native.kiriSheet_GetFold(World.Handle, Id, index, &stateValue), "Sheet.GetFold");
             return stateValue;
         }
 
@@ -932,14 +932,14 @@ namespace Kiri
         /// sheet.</summary>
         public void SetFold(int index, float stiffness, float restAngle)
         {
-            World.Check(Native.kiriSheet_SetFold(World.Handle, Id, index, stiffness, restAngle));
+            World.Check(Native.kiriSheet_SetFold(World.Handle, Id, index, stiffness, restAngle), "Sheet.SetFold");
         }
 
         /// <summary>Gets the arrays, without a copy.</summary>
         public MeshView GetMesh()
         {
             var meshValue = new NativeMesh();
-            World.CheckRead(Native.kiriSheet_GetMesh(World.Handle, Id, &meshValue));
+            World.CheckRead(Native.kiriSheet_GetMesh(World.Handle, Id, &meshValue), "Sheet.GetMesh");
             return new MeshView(World, meshValue);
         }
 
@@ -947,7 +947,7 @@ namespace Kiri
         public Dirty GetDirty(uint sinceRevision)
         {
             var dirtyValue = new Dirty();
-            World.CheckRead(Native.kiriSheet_GetDirty(World.Handle, Id, sinceRevision, &dirtyValue));
+            World.CheckRead(Native.kiriSheet_GetDirty(World.Handle, Id, sinceRevision, &dirtyValue), "Sheet.GetDirty");
             return dirtyValue;
         }
 
@@ -961,7 +961,7 @@ namespace Kiri
             var fromValue = new SheetId();
             fixed (int* verticesRows = vertices)
             {
-                World.CheckRead(Native.kiriSheet_CopyPrevious(World.Handle, Id, first, count, verticesRows, &fromValue));
+                World.CheckRead(Native.kiriSheet_CopyPrevious(World.Handle, Id, first, count, verticesRows, &fromValue), "Sheet.CopyPrevious");
             }
             return new Sheet(World, fromValue);
         }
@@ -974,7 +974,7 @@ namespace Kiri
             if (count > indices.Length / 3) World.ThrowRange();
             fixed (ushort* indicesRows = indices)
             {
-                World.CheckRead(Native.kiriSheet_CopyIndices16(World.Handle, Id, firstTriangle, count, indicesRows));
+                World.CheckRead(Native.kiriSheet_CopyIndices16(World.Handle, Id, firstTriangle, count, indicesRows), "Sheet.CopyIndices16");
             }
         }
 
@@ -987,7 +987,7 @@ namespace Kiri
             if (count > sources.Length) World.ThrowRange();
             fixed (int* sourcesRows = sources)
             {
-                World.CheckRead(Native.kiriSheet_CopySources(World.Handle, Id, firstTriangle, count, sourcesRows));
+                World.CheckRead(Native.kiriSheet_CopySources(World.Handle, Id, firstTriangle, count, sourcesRows), "Sheet.CopySources");
             }
         }
 
@@ -1000,7 +1000,7 @@ namespace Kiri
             if (count > weights.Length / 9) World.ThrowRange();
             fixed (float* weightsRows = weights)
             {
-                World.CheckRead(Native.kiriSheet_CopySourceWeights(World.Handle, Id, firstTriangle, count, weightsRows));
+                World.CheckRead(Native.kiriSheet_CopySourceWeights(World.Handle, Id, firstTriangle, count, weightsRows), "Sheet.CopySourceWeights");
             }
         }
 
@@ -1008,7 +1008,7 @@ namespace Kiri
         public SolidView GetSolid(float thickness)
         {
             var solidValue = new NativeSolid();
-            World.Check(Native.kiriSheet_GetSolid(World.Handle, Id, thickness, &solidValue));
+            World.Check(Native.kiriSheet_GetSolid(World.Handle, Id, thickness, &solidValue), "Sheet.GetSolid");
             return new SolidView(World, solidValue);
         }
 
@@ -1017,7 +1017,7 @@ namespace Kiri
         {
             float* positionsValue = null;
             int count = 0;
-            World.CheckRead(Native.kiriSheet_GetCollisionPoints(World.Handle, Id, &positionsValue, &count));
+            World.CheckRead(Native.kiriSheet_GetCollisionPoints(World.Handle, Id, &positionsValue, &count), "Sheet.GetCollisionPoints");
             return new FloatView(World, positionsValue, 3 * count);
         }
 
@@ -1025,7 +1025,7 @@ namespace Kiri
         public Counts GetCounts()
         {
             var countsValue = new Counts();
-            World.CheckRead(Native.kiriSheet_GetCounts(World.Handle, Id, &countsValue));
+            World.CheckRead(Native.kiriSheet_GetCounts(World.Handle, Id, &countsValue), "Sheet.GetCounts");
             return countsValue;
         }
 
@@ -1033,7 +1033,7 @@ namespace Kiri
         public Totals GetTotals()
         {
             var totalsValue = new Totals();
-            World.CheckRead(Native.kiriSheet_GetTotals(World.Handle, Id, &totalsValue));
+            World.CheckRead(Native.kiriSheet_GetTotals(World.Handle, Id, &totalsValue), "Sheet.GetTotals");
             return totalsValue;
         }
 
@@ -1042,7 +1042,7 @@ namespace Kiri
         public double EstimateError()
         {
             double relativeValue = 0;
-            World.CheckRead(Native.kiriSheet_EstimateError(World.Handle, Id, &relativeValue));
+            World.CheckRead(Native.kiriSheet_EstimateError(World.Handle, Id, &relativeValue), "Sheet.EstimateError");
             return relativeValue;
         }
 
@@ -1051,7 +1051,7 @@ namespace Kiri
         public bool IsAwake()
         {
             int awakeValue = 0;
-            World.CheckRead(Native.kiriSheet_IsAwake(World.Handle, Id, &awakeValue));
+            World.CheckRead(Native.kiriSheet_IsAwake(World.Handle, Id, &awakeValue), "Sheet.IsAwake");
             return awakeValue != 0;
         }
 
@@ -1059,7 +1059,7 @@ namespace Kiri
         /// all.</summary>
         public void Wake()
         {
-            World.Check(Native.kiriSheet_Wake(World.Handle, Id));
+            World.Check(Native.kiriSheet_Wake(World.Handle, Id), "Sheet.Wake");
         }
 
         /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it wakes. A planar
@@ -1067,7 +1067,7 @@ namespace Kiri
         /// sheets).</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
-            World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
+            World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation), "Sheet.Transform");
         }
 
         /// <summary>Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
@@ -1075,7 +1075,7 @@ namespace Kiri
         /// frames stay held.</summary>
         public void SetVelocity(Float3 velocity, Float3 angularVelocity)
         {
-            World.Check(Native.kiriSheet_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
+            World.Check(Native.kiriSheet_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity), "Sheet.SetVelocity");
         }
 
         /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
@@ -1083,7 +1083,7 @@ namespace Kiri
         /// has both.</summary>
         public void SetUserData(ulong data)
         {
-            World.Check(Native.kiriSheet_SetUserData(World.Handle, Id, data));
+            World.Check(Native.kiriSheet_SetUserData(World.Handle, Id, data), "Sheet.SetUserData");
         }
 
         /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
@@ -1092,7 +1092,7 @@ namespace Kiri
         public ulong GetUserData()
         {
             ulong dataValue = 0;
-            World.CheckRead(Native.kiriSheet_GetUserData(World.Handle, Id, &dataValue));
+            World.CheckRead(Native.kiriSheet_GetUserData(World.Handle, Id, &dataValue), "Sheet.GetUserData");
             return dataValue;
         }
 
@@ -1101,7 +1101,7 @@ namespace Kiri
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Hit hit)
         {
             var hitValue = new Hit();
-            World.CheckRead(Native.kiriSheet_Raycast(World.Handle, Id, (float*)&origin, (float*)&direction, maxDistance, &hitValue));
+            World.CheckRead(Native.kiriSheet_Raycast(World.Handle, Id, (float*)&origin, (float*)&direction, maxDistance, &hitValue), "Sheet.Raycast");
             hit = hitValue;
             return hitValue.Triangle >= 0;
         }
@@ -1111,7 +1111,7 @@ namespace Kiri
         public PointState GetPoint(Float2 restPoint)
         {
             var stateValue = new PointState();
-            World.CheckRead(Native.kiriSheet_GetPoint(World.Handle, Id, (float*)&restPoint, &stateValue));
+            World.CheckRead(Native.kiriSheet_GetPoint(World.Handle, Id, (float*)&restPoint, &stateValue), "Sheet.GetPoint");
             return stateValue;
         }
 
@@ -1127,7 +1127,7 @@ namespace Kiri
             fixed (float* weightsRows = weights)
             fixed (float* gradientsRows = gradients)
             {
-                World.CheckRead(Native.kiriSheet_GetWeights(World.Handle, Id, (float*)&restPoint, framesRows, weightsRows, gradientsRows, (frames == null ? 0 : frames.Length), &count));
+                World.CheckRead(Native.kiriSheet_GetWeights(World.Handle, Id, (float*)&restPoint, framesRows, weightsRows, gradientsRows, (frames == null ? 0 : frames.Length), &count), "Sheet.GetWeights");
             }
             return count;
         }
@@ -1137,7 +1137,7 @@ namespace Kiri
         public PieceState GetPiece(int piece)
         {
             var stateValue = new PieceState();
-            World.Check(Native.kiriSheet_GetPiece(World.Handle, Id, piece, &stateValue));
+            World.Check(Native.kiriSheet_GetPiece(World.Handle, Id, piece, &stateValue), "Sheet.GetPiece");
             return stateValue;
         }
 
@@ -1146,7 +1146,7 @@ namespace Kiri
         public PieceMeshView GetPieceMesh(int piece)
         {
             var meshValue = new NativePieceMesh();
-            World.Check(Native.kiriSheet_GetPieceMesh(World.Handle, Id, piece, &meshValue));
+            World.Check(Native.kiriSheet_GetPieceMesh(World.Handle, Id, piece, &meshValue), "Sheet.GetPieceMesh");
             return new PieceMeshView(World, meshValue);
         }
 
@@ -1155,7 +1155,7 @@ namespace Kiri
         {
             FrameId* framesValue = null;
             int count = 0;
-            World.Check(Native.kiriSheet_GetPieceFrames(World.Handle, Id, piece, &framesValue, &count));
+            World.Check(Native.kiriSheet_GetPieceFrames(World.Handle, Id, piece, &framesValue, &count), "Sheet.GetPieceFrames");
             return new FrameIdView(World, framesValue, count);
         }
 
@@ -1164,7 +1164,7 @@ namespace Kiri
         public int DropCrumbs(float area)
         {
             int countValue = 0;
-            World.Check(Native.kiriSheet_DropCrumbs(World.Handle, Id, area, &countValue));
+            World.Check(Native.kiriSheet_DropCrumbs(World.Handle, Id, area, &countValue), "Sheet.DropCrumbs");
             return countValue;
         }
 
@@ -1175,7 +1175,7 @@ namespace Kiri
         public Cut BeginCut(Float2 restPoint)
         {
             var cutValue = new CutId();
-            World.Check(Native.kiriBeginCut(World.Handle, Id, (float*)&restPoint, &cutValue));
+            World.Check(Native.kiriBeginCut(World.Handle, Id, (float*)&restPoint, &cutValue), "Sheet.BeginCut");
             return new Cut(World, cutValue);
         }
 
@@ -1185,7 +1185,7 @@ namespace Kiri
         public Cut Slice(Float12 blade)
         {
             var cutValue = new CutId();
-            World.Check(Native.kiriSheet_Slice(World.Handle, Id, (float*)&blade, &cutValue));
+            World.Check(Native.kiriSheet_Slice(World.Handle, Id, (float*)&blade, &cutValue), "Sheet.Slice");
             return new Cut(World, cutValue);
         }
 
@@ -1193,7 +1193,7 @@ namespace Kiri
         /// KIRI_MODEL_LINKS.</summary>
         public void SetTearing(Tearing tearing)
         {
-            World.Check(Native.kiriSheet_SetTearing(World.Handle, Id, &tearing));
+            World.Check(Native.kiriSheet_SetTearing(World.Handle, Id, &tearing), "Sheet.SetTearing");
         }
 
         /// <summary>Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
@@ -1201,7 +1201,7 @@ namespace Kiri
         public Tearing GetTearing()
         {
             var tearingValue = new Tearing();
-            World.CheckRead(Native.kiriSheet_GetTearing(World.Handle, Id, &tearingValue));
+            World.CheckRead(Native.kiriSheet_GetTearing(World.Handle, Id, &tearingValue), "Sheet.GetTearing");
             return tearingValue;
         }
 
@@ -1214,7 +1214,7 @@ namespace Kiri
             if (count > restPoints.Length / 2) World.ThrowRange();
             fixed (float* restPointsRows = restPoints)
             {
-                World.Check(Native.kiriSheet_SetTearLine(World.Handle, Id, restPointsRows, count, factor));
+                World.Check(Native.kiriSheet_SetTearLine(World.Handle, Id, restPointsRows, count, factor), "Sheet.SetTearLine");
             }
         }
 
@@ -1224,7 +1224,7 @@ namespace Kiri
             int count = 0;
             fixed (FrameId* framesRows = frames)
             {
-                World.CheckRead(Native.kiriSheet_GetFrames(World.Handle, Id, framesRows, (frames == null ? 0 : frames.Length), &count));
+                World.CheckRead(Native.kiriSheet_GetFrames(World.Handle, Id, framesRows, (frames == null ? 0 : frames.Length), &count), "Sheet.GetFrames");
             }
             return count;
         }
@@ -1239,20 +1239,20 @@ namespace Kiri
         /// <summary>Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).</summary>
         public void ApplyForce(Float2 restPoint, Float3 force, Float3 torque)
         {
-            World.Check(Native.kiriSheet_ApplyForce(World.Handle, Id, (float*)&restPoint, (float*)&force, (float*)&torque));
+            World.Check(Native.kiriSheet_ApplyForce(World.Handle, Id, (float*)&restPoint, (float*)&force, (float*)&torque), "Sheet.ApplyForce");
         }
 
         /// <summary>Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
         /// included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
         public void ApplyLineLoad(Float2 from, Float2 to, Float3 forcePerLength)
         {
-            World.Check(Native.kiriSheet_ApplyLineLoad(World.Handle, Id, (float*)&from, (float*)&to, (float*)&forcePerLength));
+            World.Check(Native.kiriSheet_ApplyLineLoad(World.Handle, Id, (float*)&from, (float*)&to, (float*)&forcePerLength), "Sheet.ApplyLineLoad");
         }
 
         /// <summary>Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.</summary>
         public void ApplyPressure(float pressure)
         {
-            World.Check(Native.kiriSheet_ApplyPressure(World.Handle, Id, pressure));
+            World.Check(Native.kiriSheet_ApplyPressure(World.Handle, Id, pressure), "Sheet.ApplyPressure");
         }
 
         /// <summary>Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of
@@ -1260,13 +1260,13 @@ namespace Kiri
         /// sheet.</summary>
         public void ApplyImpulse(Float2 restPoint, Float3 impulse)
         {
-            World.Check(Native.kiriSheet_ApplyImpulse(World.Handle, Id, (float*)&restPoint, (float*)&impulse));
+            World.Check(Native.kiriSheet_ApplyImpulse(World.Handle, Id, (float*)&restPoint, (float*)&impulse), "Sheet.ApplyImpulse");
         }
 
         /// <summary>Copies the wind; it blows until the next call.</summary>
         public void SetWind(Wind wind)
         {
-            World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind));
+            World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind), "Sheet.SetWind");
         }
 
         /// <summary>Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT:
@@ -1274,7 +1274,7 @@ namespace Kiri
         public Pin CreatePin(PinDef @def)
         {
             var pinValue = new PinId();
-            World.Check(Native.kiriCreatePin(World.Handle, Id, &@def, &pinValue));
+            World.Check(Native.kiriCreatePin(World.Handle, Id, &@def, &pinValue), "Sheet.CreatePin");
             return new Pin(World, pinValue);
         }
 
@@ -1284,7 +1284,7 @@ namespace Kiri
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
-            World.Check(Native.kiriSheet_ClampLine(World.Handle, Id, (float*)&from, (float*)&to, &clampValue));
+            World.Check(Native.kiriSheet_ClampLine(World.Handle, Id, (float*)&from, (float*)&to, &clampValue), "Sheet.ClampLine");
             return new Pin(World, clampValue);
         }
 
@@ -1294,7 +1294,7 @@ namespace Kiri
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
-            World.Check(Native.kiriSheet_HingeLine(World.Handle, Id, (float*)&from, (float*)&to, &hingeValue));
+            World.Check(Native.kiriSheet_HingeLine(World.Handle, Id, (float*)&from, (float*)&to, &hingeValue), "Sheet.HingeLine");
             return new Pin(World, hingeValue);
         }
 
@@ -1304,7 +1304,7 @@ namespace Kiri
             int count = 0;
             fixed (PinId* pinsRows = pins)
             {
-                World.CheckRead(Native.kiriSheet_GetPins(World.Handle, Id, pinsRows, (pins == null ? 0 : pins.Length), &count));
+                World.CheckRead(Native.kiriSheet_GetPins(World.Handle, Id, pinsRows, (pins == null ? 0 : pins.Length), &count), "Sheet.GetPins");
             }
             return count;
         }
@@ -1324,7 +1324,7 @@ namespace Kiri
             if (count > contacts.Length) World.ThrowRange();
             fixed (Contact* contactsRows = contacts)
             {
-                World.Check(Native.kiriSheet_SetContacts(World.Handle, Id, contactsRows, count));
+                World.Check(Native.kiriSheet_SetContacts(World.Handle, Id, contactsRows, count), "Sheet.SetContacts");
             }
         }
 
@@ -1334,7 +1334,7 @@ namespace Kiri
         {
             ContactForce* forcesValue = null;
             int count = 0;
-            World.CheckRead(Native.kiriSheet_GetContactForces(World.Handle, Id, &forcesValue, &count));
+            World.CheckRead(Native.kiriSheet_GetContactForces(World.Handle, Id, &forcesValue, &count), "Sheet.GetContactForces");
             return new ContactForceView(World, forcesValue, count);
         }
 
@@ -1344,7 +1344,7 @@ namespace Kiri
         {
             var lowerValue = new Float3();
             var upperValue = new Float3();
-            World.CheckRead(Native.kiriSheet_GetReach(World.Handle, Id, dt, (float*)&lowerValue, (float*)&upperValue));
+            World.CheckRead(Native.kiriSheet_GetReach(World.Handle, Id, dt, (float*)&lowerValue, (float*)&upperValue), "Sheet.GetReach");
             lower = lowerValue;
             upper = upperValue;
         }
@@ -1367,7 +1367,7 @@ namespace Kiri
         /// frames stay held.</summary>
         public void SetPieceVelocity(Float3 velocity, Float3 angularVelocity)
         {
-            World.Check(Native.kiriFrame_SetPieceVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
+            World.Check(Native.kiriFrame_SetPieceVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity), "Frame.SetPieceVelocity");
         }
 
         /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
@@ -1375,7 +1375,7 @@ namespace Kiri
         /// has both.</summary>
         public void SetPieceUserData(ulong data)
         {
-            World.Check(Native.kiriFrame_SetPieceUserData(World.Handle, Id, data));
+            World.Check(Native.kiriFrame_SetPieceUserData(World.Handle, Id, data), "Frame.SetPieceUserData");
         }
 
         /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
@@ -1384,7 +1384,7 @@ namespace Kiri
         public ulong GetPieceUserData()
         {
             ulong dataValue = 0;
-            World.CheckRead(Native.kiriFrame_GetPieceUserData(World.Handle, Id, &dataValue));
+            World.CheckRead(Native.kiriFrame_GetPieceUserData(World.Handle, Id, &dataValue), "Frame.GetPieceUserData");
             return dataValue;
         }
 
@@ -1392,7 +1392,7 @@ namespace Kiri
         public int GetPiece()
         {
             int pieceValue = 0;
-            World.CheckRead(Native.kiriFrame_GetPiece(World.Handle, Id, &pieceValue));
+            World.CheckRead(Native.kiriFrame_GetPiece(World.Handle, Id, &pieceValue), "Frame.GetPiece");
             return pieceValue;
         }
 
@@ -1404,7 +1404,7 @@ namespace Kiri
         public Sheet DetachPiece()
         {
             var detachedValue = new SheetId();
-            World.Check(Native.kiriFrame_DetachPiece(World.Handle, Id, &detachedValue));
+            World.Check(Native.kiriFrame_DetachPiece(World.Handle, Id, &detachedValue), "Frame.DetachPiece");
             return new Sheet(World, detachedValue);
         }
 
@@ -1414,7 +1414,7 @@ namespace Kiri
         public Status DestroyPiece()
         {
             int result;
-            result = World.Check(Native.kiriFrame_DestroyPiece(World.Handle, Id));
+            result = World.Check(Native.kiriFrame_DestroyPiece(World.Handle, Id), "Frame.DestroyPiece");
             return result == 0 ? Status.Done : Status.Pending;
         }
 
@@ -1425,7 +1425,7 @@ namespace Kiri
         {
             Float3 positionValue = position.GetValueOrDefault();
             Float9 rotationValue = rotation.GetValueOrDefault();
-            World.Check(Native.kiriFrame_Hold(World.Handle, Id, position.HasValue ? (float*)&positionValue : null, rotation.HasValue ? (float*)&rotationValue : null));
+            World.Check(Native.kiriFrame_Hold(World.Handle, Id, position.HasValue ? (float*)&positionValue : null, rotation.HasValue ? (float*)&rotationValue : null), "Frame.Hold");
         }
 
         /// <summary>Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet:
@@ -1434,7 +1434,7 @@ namespace Kiri
         public FrameState GetState()
         {
             var stateValue = new FrameState();
-            World.CheckRead(Native.kiriFrame_GetState(World.Handle, Id, &stateValue));
+            World.CheckRead(Native.kiriFrame_GetState(World.Handle, Id, &stateValue), "Frame.GetState");
             return stateValue;
         }
 
@@ -1445,7 +1445,7 @@ namespace Kiri
         {
             var forceValue = new Double3();
             var torqueValue = new Double3();
-            World.CheckRead(Native.kiriFrame_GetReaction(World.Handle, Id, (double*)&forceValue, (double*)&torqueValue));
+            World.CheckRead(Native.kiriFrame_GetReaction(World.Handle, Id, (double*)&forceValue, (double*)&torqueValue), "Frame.GetReaction");
             force = forceValue;
             torque = torqueValue;
         }
@@ -1453,7 +1453,7 @@ namespace Kiri
         /// <summary>Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).</summary>
         public void ApplyForce(Float3 force, Float3 torque)
         {
-            World.Check(Native.kiriFrame_ApplyForce(World.Handle, Id, (float*)&force, (float*)&torque));
+            World.Check(Native.kiriFrame_ApplyForce(World.Handle, Id, (float*)&force, (float*)&torque), "Frame.ApplyForce");
         }
     }
 
@@ -1474,7 +1474,7 @@ namespace Kiri
         /// has both.</summary>
         public void SetUserData(ulong data)
         {
-            World.Check(Native.kiriPin_SetUserData(World.Handle, Id, data));
+            World.Check(Native.kiriPin_SetUserData(World.Handle, Id, data), "Pin.SetUserData");
         }
 
         /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
@@ -1483,7 +1483,7 @@ namespace Kiri
         public ulong GetUserData()
         {
             ulong dataValue = 0;
-            World.CheckRead(Native.kiriPin_GetUserData(World.Handle, Id, &dataValue));
+            World.CheckRead(Native.kiriPin_GetUserData(World.Handle, Id, &dataValue), "Pin.GetUserData");
             return dataValue;
         }
 
@@ -1491,7 +1491,7 @@ namespace Kiri
         /// outside.</summary>
         public void Destroy()
         {
-            World.Check(Native.kiriDestroyPin(World.Handle, Id));
+            World.Check(Native.kiriDestroyPin(World.Handle, Id), "Pin.Destroy");
         }
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
@@ -1500,7 +1500,7 @@ namespace Kiri
         /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetTarget(Float3 target)
         {
-            World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));
+            World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target), "Pin.SetTarget");
         }
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
@@ -1509,13 +1509,13 @@ namespace Kiri
         /// KIRI_ERROR_ARGUMENT: a point.</summary>
         public void SetPose(Float3 target, Float9 rotation)
         {
-            World.Check(Native.kiriPin_SetPose(World.Handle, Id, (float*)&target, (float*)&rotation));
+            World.Check(Native.kiriPin_SetPose(World.Handle, Id, (float*)&target, (float*)&rotation), "Pin.SetPose");
         }
 
         /// <summary>Sets the force (N) that breaks a pin of any type; 0: it never breaks.</summary>
         public void SetBreakForce(float breakForce)
         {
-            World.Check(Native.kiriPin_SetBreakForce(World.Handle, Id, breakForce));
+            World.Check(Native.kiriPin_SetBreakForce(World.Handle, Id, breakForce), "Pin.SetBreakForce");
         }
 
         /// <summary>Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
@@ -1523,7 +1523,7 @@ namespace Kiri
         public PinState GetState()
         {
             var stateValue = new PinState();
-            World.CheckRead(Native.kiriPin_GetState(World.Handle, Id, &stateValue));
+            World.CheckRead(Native.kiriPin_GetState(World.Handle, Id, &stateValue), "Pin.GetState");
             return stateValue;
         }
 
@@ -1533,7 +1533,7 @@ namespace Kiri
         {
             var forceValue = new Double3();
             var torqueValue = new Double3();
-            World.CheckRead(Native.kiriPin_GetReaction(World.Handle, Id, (double*)&forceValue, (double*)&torqueValue));
+            World.CheckRead(Native.kiriPin_GetReaction(World.Handle, Id, (double*)&forceValue, (double*)&torqueValue), "Pin.GetReaction");
             force = forceValue;
             torque = torqueValue;
         }
@@ -1561,7 +1561,7 @@ namespace Kiri
             if (count > restPoints.Length / 2) World.ThrowRange();
             fixed (float* restPointsRows = restPoints)
             {
-                World.Check(Native.kiriCut_Extend(World.Handle, Id, restPointsRows, count));
+                World.Check(Native.kiriCut_Extend(World.Handle, Id, restPointsRows, count), "Cut.Extend");
             }
         }
 
@@ -1571,7 +1571,7 @@ namespace Kiri
         /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
         public void End()
         {
-            World.Check(Native.kiriCut_End(World.Handle, Id));
+            World.Check(Native.kiriCut_End(World.Handle, Id), "Cut.End");
         }
     }
 
@@ -1592,7 +1592,7 @@ namespace Kiri
         /// cuts stay.</summary>
         public void MoveEdge(Float3 from, Float3 to)
         {
-            World.Check(Native.kiriBlade_MoveEdge(World.Handle, Id, (float*)&from, (float*)&to));
+            World.Check(Native.kiriBlade_MoveEdge(World.Handle, Id, (float*)&from, (float*)&to), "Blade.MoveEdge");
         }
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
@@ -1600,7 +1600,7 @@ namespace Kiri
         /// cuts stay.</summary>
         public void MoveRay(Float3 origin, Float3 direction, float length)
         {
-            World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length));
+            World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length), "Blade.MoveRay");
         }
 
         /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
@@ -1608,7 +1608,7 @@ namespace Kiri
         /// cuts stay.</summary>
         public void End()
         {
-            World.Check(Native.kiriBlade_End(World.Handle, Id));
+            World.Check(Native.kiriBlade_End(World.Handle, Id), "Blade.End");
         }
     }
 
@@ -1629,7 +1629,7 @@ namespace Kiri
         /// sewing).</summary>
         public void Destroy()
         {
-            World.Check(Native.kiriDestroySeam(World.Handle, Id));
+            World.Check(Native.kiriDestroySeam(World.Handle, Id), "Seam.Destroy");
         }
 
         /// <summary>Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. On failure *seam is
@@ -1637,14 +1637,14 @@ namespace Kiri
         /// sewing).</summary>
         public void SetHinge(float stiffness, float restAngle)
         {
-            World.Check(Native.kiriSeam_SetHinge(World.Handle, Id, stiffness, restAngle));
+            World.Check(Native.kiriSeam_SetHinge(World.Handle, Id, stiffness, restAngle), "Seam.SetHinge");
         }
 
         /// <summary>Get a stitch that is left, in the order of the lines, and their number. KIRI_ERROR_ARGUMENT: no such index.</summary>
         public Stitch GetStitch(int index)
         {
             var stitchValue = new Stitch();
-            World.CheckRead(Native.kiriSeam_GetStitch(World.Handle, Id, index, &stitchValue));
+            World.CheckRead(Native.kiriSeam_GetStitch(World.Handle, Id, index, &stitchValue), "Seam.GetStitch");
             return stitchValue;
         }
 
@@ -1652,7 +1652,7 @@ namespace Kiri
         public int GetCount()
         {
             int stitchesValue = 0;
-            World.CheckRead(Native.kiriSeam_GetCount(World.Handle, Id, &stitchesValue));
+            World.CheckRead(Native.kiriSeam_GetCount(World.Handle, Id, &stitchesValue), "Seam.GetCount");
             return stitchesValue;
         }
     }
@@ -1672,41 +1672,41 @@ namespace Kiri
         /// <summary>Fill the def with its defaults; add and destroy an obstacle. On failure *obstacle is 0. Pieces on it wake.</summary>
         public void Destroy()
         {
-            World.Check(Native.kiriDestroyObstacle(World.Handle, Id));
+            World.Check(Native.kiriDestroyObstacle(World.Handle, Id), "Obstacle.Destroy");
         }
 
         /// <summary>Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.</summary>
         public void SetPose(Float3 position, Float9 rotation)
         {
-            World.Check(Native.kiriObstacle_SetPose(World.Handle, Id, (float*)&position, (float*)&rotation));
+            World.Check(Native.kiriObstacle_SetPose(World.Handle, Id, (float*)&position, (float*)&rotation), "Obstacle.SetPose");
         }
 
         /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         /// mass.</summary>
         public void SetVelocity(Float3 velocity, Float3 angularVelocity)
         {
-            World.Check(Native.kiriObstacle_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
+            World.Check(Native.kiriObstacle_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity), "Obstacle.SetVelocity");
         }
 
         /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         /// mass.</summary>
         public void SetSurfaceVelocity(Float3 velocity)
         {
-            World.Check(Native.kiriObstacle_SetSurfaceVelocity(World.Handle, Id, (float*)&velocity));
+            World.Check(Native.kiriObstacle_SetSurfaceVelocity(World.Handle, Id, (float*)&velocity), "Obstacle.SetSurfaceVelocity");
         }
 
         /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         /// mass.</summary>
         public void SetMass(float mass, Float6 inertia, Float3 centerOfMass)
         {
-            World.Check(Native.kiriObstacle_SetMass(World.Handle, Id, mass, (float*)&inertia, (float*)&centerOfMass));
+            World.Check(Native.kiriObstacle_SetMass(World.Handle, Id, mass, (float*)&inertia, (float*)&centerOfMass), "Obstacle.SetMass");
         }
 
         /// <summary>Gets the current state.</summary>
         public ObstacleState GetState()
         {
             var stateValue = new ObstacleState();
-            World.CheckRead(Native.kiriObstacle_GetState(World.Handle, Id, &stateValue));
+            World.CheckRead(Native.kiriObstacle_GetState(World.Handle, Id, &stateValue), "Obstacle.GetState");
             return stateValue;
         }
     }

@@ -1,5 +1,6 @@
 using System;
 using System.Runtime.InteropServices;
+using System.Text.RegularExpressions;
 
 namespace Kiri
 {
@@ -21,9 +22,17 @@ namespace Kiri
     {
         public readonly ResultCode Code;
 
-        internal KiriException(ResultCode code, string line)
-            : base(line != "" ? line : World.Text(Native.kiriGetResultName((int)code)) + ": " +
-                                       World.Text(Native.kiriGetResultText((int)code))) { Code = code; }
+        internal KiriException(ResultCode code, string call, string line)
+            : base(call + ": " + Own(line != "" ? line : World.Text(Native.kiriGetResultText((int)code))) + " (" + code + ")")
+        {
+            Code = code;
+        }
+
+        // A line of C begins with its name for the call, and ends with the code; fields are named as in C.
+        static string Own(string line)
+        {
+            return Regex.Replace(Regex.Replace(line, @"^kiri\w+: | \(KIRI_\w+\)$", ""), @"\.[a-z]", field => field.Value.ToUpperInvariant());
+        }
     }
 
     /// <summary>The host's functions. None of these may throw, or use the world.</summary>
@@ -115,7 +124,7 @@ namespace Kiri
             IntPtr made;
             int result = Native.kiriCreateWorld(&def, &made);
             if (result < 0) this.hooks.Free();
-            CheckRead(result);
+            CheckRead(result, "World");
             handle = made;
         }
 
@@ -151,21 +160,21 @@ namespace Kiri
 
         void EndViews() { ++Epoch; }
 
-        internal int Check(int result)
+        internal int Check(int result, string call)
         {
-            if (result < 0) throw new KiriException((ResultCode)result, LastError);
+            if (result < 0) throw new KiriException((ResultCode)result, call, LastError);
             return result;
         }
 
-        internal int CheckRead(int result)
+        internal int CheckRead(int result, string call)
         {
-            if (result < 0) throw new KiriException((ResultCode)result, Hooks.Line ?? "");
+            if (result < 0) throw new KiriException((ResultCode)result, call, Hooks.Line ?? "");
             return result;
         }
 
-        internal static int CheckStatic(int result)
+        internal static int CheckStatic(int result, string call)
         {
-            if (result < 0) throw new KiriException((ResultCode)result, "");
+            if (result < 0) throw new KiriException((ResultCode)result, call, "");
             return result;
         }
 
@@ -185,7 +194,8 @@ namespace Kiri
         /// There must be room.</summary>
         public void CopyVertices(int first, int count, void* positions, int positionStride, void* normals, int normalStride)
         {
-            World.CheckRead(Native.kiriSheet_CopyVertices(World.Handle, Id, first, count, positions, positionStride, normals, normalStride));
+            World.CheckRead(Native.kiriSheet_CopyVertices(World.Handle, Id, first, count, positions, positionStride, normals, normalStride),
+                            "Sheet.CopyVertices");
         }
 
         /// <summary>The same to rows of `stride` floats, with the position at the start and, unless below 3, the normal at
@@ -204,7 +214,7 @@ namespace Kiri
             Cut cut = BeginCut(new Float2(restPoints[0], restPoints[1]));
             fixed (float* points = restPoints)
                 if (restPoints.Length > 2)
-                    World.Check(Native.kiriCut_Extend(World.Handle, cut.Id, points + 2, restPoints.Length / 2 - 1));
+                    World.Check(Native.kiriCut_Extend(World.Handle, cut.Id, points + 2, restPoints.Length / 2 - 1), "Cut.Extend");
             cut.End();
             return cut;
         }
@@ -251,7 +261,7 @@ namespace Kiri
         internal int Replay(byte* recording, long size, NativeReplay* replay)
         {
             EndViews();
-            return Check(Native.kiriWorld_Replay(Handle, recording, size, replay));
+            return Check(Native.kiriWorld_Replay(Handle, recording, size, replay), "World.Replay");
         }
     }
 }

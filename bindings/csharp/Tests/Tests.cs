@@ -74,10 +74,12 @@ namespace Kiri.Tests
                 def.RestPoint = new Float2(7.0f, 7.0f);
                 var refused = Throws<KiriException>(() => sheet.CreatePin(def));
                 Equal(refused.Code, ResultCode.ErrorArgument);
-                True(world.LastError != "" && refused.Message.EndsWith(world.LastError), refused.Message);
+                True(world.LastError.StartsWith("kiriCreatePin: ") && refused.Message.StartsWith("Sheet.CreatePin: "), refused.Message);
+                def.Target.X = float.NaN;
+                Equal(Throws<KiriException>(() => sheet.CreatePin(def)).Message, "Sheet.CreatePin: def.Target[0] is NaN, not finite (ErrorArgument)");
                 refused = Throws<KiriException>(() => sheet.GetPoint(new Float2(7.0f, 7.0f)));
-                True(refused.Message.StartsWith("kiriSheet_GetPoint: "), refused.Message);
-                Equal(Throws<KiriException>(() => Library.GetMaterial((MaterialPreset)77)).Message.Split(new[] { ':' })[0], "KIRI_ERROR_ARGUMENT");
+                True(refused.Message.StartsWith("Sheet.GetPoint: ") && refused.Message.EndsWith(" (ErrorArgument)"), refused.Message);
+                True(Throws<KiriException>(() => Library.GetMaterial((MaterialPreset)77)).Message.StartsWith("Library.GetMaterial: "), "its call");
                 sheet.Destroy();
                 Equal(Throws<KiriException>(() => sheet.GetCounts()).Code, ResultCode.ErrorId);
             }

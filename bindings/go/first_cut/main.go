@@ -2,8 +2,8 @@
 package main
 
 import (
+	"example.com/kiri"
 	"fmt"
-	"kiri"
 )
 
 func main() {

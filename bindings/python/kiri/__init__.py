@@ -38,7 +38,7 @@ def fill_rectangle(width: float, height: float, columns: int, rows: int) -> Tupl
     """Rest positions and triangles of a rectangle, as create_sheet takes them."""
     positions = ffi.new("float[]", max(2 * (columns + 1) * (rows + 1), 1))
     triangles = ffi.new("int32_t[]", max(6 * columns * rows, 1))
-    _core.check(load().kiriFillRectangle(width, height, columns, rows, positions, triangles))
+    _core.check("kiriFillRectangle", width, height, columns, rows, positions, triangles)
     return positions, triangles
 
 
@@ -46,7 +46,7 @@ def fit_budget(profile: types.SimpleNamespace, microseconds: float, **budget: in
     """The budget (a dict, for set_budget) whose work would have taken so many microseconds a tick at the pace of a
     profile. `budget`: what it is where the profile has none of an item."""
     known, fitted = ffi.new("kiriProfile*", vars(profile)), ffi.new("kiriBudget*", budget)
-    _core.check(load().kiriFitBudget(known, microseconds, fitted))
+    _core.check("kiriFitBudget", known, microseconds, fitted)
     return vars(_core.record(fitted[0]))
 
 

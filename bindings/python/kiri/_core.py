@@ -4,6 +4,7 @@ import atexit
 import difflib
 import os
 import pathlib
+import re
 import threading
 import types
 import typing
@@ -63,12 +64,18 @@ def load(path=None):
     return _libraries[path]
 
 
-class KiriError(Exception):
-    """A call failed; `result` is its kiriResult."""
+def _own(found):
+    """The name that a function of C has here."""
+    return ".".join(filter(None, METHODS.get(found[0], (found[0],))))
 
-    def __init__(self, result, name, line):
-        super().__init__(f"{name}: {line}" if line else name)
-        self.result = result
+
+class KiriError(Exception):
+    """A call failed; `result` is its ResultCode."""
+
+    def __init__(self, result, line):
+        self.result = _enums.ResultCode(result)
+        code, line = f"KIRI_{self.result.name}", re.sub(r"\bkiri[A-Z]\w*", _own, line.replace(": def.", ": "))
+        super().__init__(line if code in line else f"{line or 'a call failed'} ({code})")
 
 
 # ---- From Python to C and back --------------------------------------------------------------------------------------
@@ -199,12 +206,11 @@ def _enum_of(name, value):
         return value
 
 
-def check(result):
-    """For functions of no world."""
+def check(name, *arguments):
+    """A function of no world."""
+    result = getattr(load(), name)(*arguments)
     if result < 0:
-        raise KiriError(result, ffi.string(load().kiriGetResultName(result)).decode(),
-                        ffi.string(load().kiriGetResultText(result)).decode())
-    return result
+        raise KiriError(result, f"{name}: {ffi.string(load().kiriGetResultText(result)).decode()}")
 
 
 def copy(pointer, count, width):
@@ -246,7 +252,7 @@ class _Turns:
         with self._left:
             if thread in self.inside:
                 why = "its arrays are on loan" if self.lent else "a callback must not call the world it serves"
-                raise KiriError(KIRI_ERROR_STATE, "KIRI_ERROR_STATE", why)
+                raise KiriError(KIRI_ERROR_STATE, why)
             self._waiting += changes
             try:
                 while self.inside if changes else self._changing or self._waiting:
@@ -392,7 +398,7 @@ class World:
         if raised:
             raise raised
         if result < 0:
-            raise KiriError(result, ffi.string(self.lib.kiriGetResultName(result)).decode(), line)
+            raise KiriError(result, line)
         return result
 
     def id_of(self, thing, kind=None):
@@ -412,7 +418,7 @@ class World:
         self._turns.enter(CHANGES[name])
         try:
             if self._world == ffi.NULL:
-                raise KiriError(KIRI_ERROR_ARGUMENT, "KIRI_ERROR_ARGUMENT", "the world is closed")
+                raise KiriError(KIRI_ERROR_ARGUMENT, f"{name}: the world is closed")
             result = self._check(getattr(self.lib, name)(self._world, *arguments))
             return take() if take else result
         finally:
@@ -434,7 +440,7 @@ class World:
         struct = ffi.new(kind + "*")
         return self.call(name, *arguments, struct, take=lambda: copies(struct, names))
 
-    def create(self, kind, *before, **fields):
+    def create(self, kind, /, *before, **fields):
         """The id of a new thing, from its def with these fields."""
         kept = []  # until C has read it
         return self.get(f"kiriCreate{kind}", "kiri" + kind, *before, definition(self, f"kiri{kind}Def", fields, kept))
@@ -474,7 +480,7 @@ class Loan:
         world._turns.enter(CHANGES[self._name])
         try:
             if world._world == ffi.NULL:
-                raise KiriError(KIRI_ERROR_ARGUMENT, "KIRI_ERROR_ARGUMENT", "the world is closed")
+                raise KiriError(KIRI_ERROR_ARGUMENT, f"{self._name}: the world is closed")
             world._check(getattr(world.lib, self._name)(world._world, *self._arguments, self._struct))
             self._record = types.SimpleNamespace(**dict(self._fields()))
             world._turns.lent += 1

@@ -47,7 +47,7 @@ def material(preset: int) -> Record:
     most).
     """
     structure = core.ffi.new('kiriMaterial*')
-    core.check(core.load().kiriGetMaterial(preset, structure))
+    core.check('kiriGetMaterial', preset, structure)
     return core.record(structure[0])
 
 
@@ -56,7 +56,7 @@ def quality(preset: int) -> Record:
     most).
     """
     structure = core.ffi.new('kiriQuality*')
-    core.check(core.load().kiriGetQuality(preset, structure))
+    core.check('kiriGetQuality', preset, structure)
     return core.record(structure[0])
 
 
@@ -65,7 +65,7 @@ def setup(preset: int, width: float, height: float) -> Record:
     most).
     """
     structure = core.ffi.new('kiriSetup*')
-    core.check(core.load().kiriGetSetup(preset, width, height, structure))
+    core.check('kiriGetSetup', preset, width, height, structure)
     return core.record(structure[0])
 
 

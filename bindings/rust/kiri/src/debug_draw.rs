@@ -65,7 +65,7 @@ impl World {
         raw.triangles = Some(draw::<F, 2>);
         raw.user = std::ptr::from_mut(&mut function).cast();
         // SAFETY: the functions are called within.
-        check_read(unsafe { sys::kiriWorld_DebugDraw(self.raw(), &raw) })?;
+        check_read(unsafe { sys::kiriWorld_DebugDraw(self.raw(), &raw) }, "World::debug_draw")?;
         Ok(())
     }
 }

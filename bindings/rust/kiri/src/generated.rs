@@ -2436,7 +2436,7 @@ pub fn result_text(result: ResultCode) -> &'static str {
 /// must set the same budgets.
 pub fn fit_budget(profile: &Profile, microseconds: f32, budget: &mut Budget) -> Result<()> {
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) })?;
+    fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) }, "fit_budget")?;
     Ok(())
 }
 
@@ -2452,7 +2452,7 @@ pub fn stage_name(stage: Stage) -> &'static str {
 pub fn material(preset: MaterialPreset) -> Result<Material> {
     let mut material = MaybeUninit::<sys::kiriMaterial>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriGetMaterial(preset as i32, material.as_mut_ptr()) })?;
+    fail(unsafe { sys::kiriGetMaterial(preset as i32, material.as_mut_ptr()) }, "material")?;
     // SAFETY: it filled the struct.
     let material = unsafe { material.assume_init() };
     Ok(Material::from_raw(&material))
@@ -2463,7 +2463,7 @@ pub fn material(preset: MaterialPreset) -> Result<Material> {
 pub fn quality(preset: QualityPreset) -> Result<Quality> {
     let mut quality = MaybeUninit::<sys::kiriQuality>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriGetQuality(preset as i32, quality.as_mut_ptr()) })?;
+    fail(unsafe { sys::kiriGetQuality(preset as i32, quality.as_mut_ptr()) }, "quality")?;
     // SAFETY: it filled the struct.
     let quality = unsafe { quality.assume_init() };
     Ok(Quality::from_raw(&quality))
@@ -2474,7 +2474,7 @@ pub fn quality(preset: QualityPreset) -> Result<Quality> {
 pub fn setup(preset: SetupPreset, width: f32, height: f32) -> Result<Setup> {
     let mut setup = MaybeUninit::<sys::kiriSetup>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriGetSetup(preset as i32, width, height, setup.as_mut_ptr()) })?;
+    fail(unsafe { sys::kiriGetSetup(preset as i32, width, height, setup.as_mut_ptr()) }, "setup")?;
     // SAFETY: it filled the struct.
     let setup = unsafe { setup.assume_init() };
     Ok(Setup::from_raw(&setup))
@@ -2486,7 +2486,7 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
     let mut rest_positions = vec![[f32::default(); 2]; (2 * (columns.clamp(0, 4096) as usize + 1) * (rows.clamp(0, 4096) as usize + 1)) / 2];
     let mut indices = vec![[i32::default(); 3]; (6 * columns.clamp(0, 4096) as usize * rows.clamp(0, 4096) as usize) / 3];
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriFillRectangle(width, height, columns, rows, rest_positions.as_mut_ptr().cast(), indices.as_mut_ptr().cast()) })?;
+    fail(unsafe { sys::kiriFillRectangle(width, height, columns, rows, rest_positions.as_mut_ptr().cast(), indices.as_mut_ptr().cast()) }, "fill_rectangle")?;
     Ok((rest_positions, indices))
 }
 
@@ -2499,7 +2499,7 @@ impl World {
     /// [`ResultCode::Diverged`]: events name sheets that were stopped.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
+        let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self, "World::tick")?;
         Ok(Status::of(result))
     }
 
@@ -2508,21 +2508,21 @@ impl World {
     /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
     pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self)?;
+        check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self, "World::shift_origin")?;
         Ok(())
     }
 
     /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self)?;
+        check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self, "World::set_gravity")?;
         Ok(())
     }
 
     /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn set_budget(&mut self, budget: &Budget) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_SetBudget(self.raw_mut(), &budget.raw()) }, self)?;
+        check(unsafe { sys::kiriWorld_SetBudget(self.raw_mut(), &budget.raw()) }, self, "World::set_budget")?;
         Ok(())
     }
 
@@ -2531,7 +2531,7 @@ impl World {
     pub fn state_hash(&self) -> Result<u64> {
         let mut hash: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriWorld_GetStateHash(self.raw(), &mut hash) })?;
+        check_read(unsafe { sys::kiriWorld_GetStateHash(self.raw(), &mut hash) }, "World::state_hash")?;
         Ok(hash)
     }
 
@@ -2543,7 +2543,7 @@ impl World {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriWorld_GetSheets(self.raw(), sheets.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            check_read(unsafe { sys::kiriWorld_GetSheets(self.raw(), sheets.as_mut_ptr().cast(), capacity as i32, &mut count) }, "World::sheets")?;
             let needed = count as usize;
             if needed <= capacity {
                 unsafe { sheets.set_len(needed) };
@@ -2559,7 +2559,7 @@ impl World {
     /// replay stops there.
     pub fn note(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_Note(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i32) }, self)?;
+        check(unsafe { sys::kiriWorld_Note(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i32) }, self, "World::note")?;
         Ok(())
     }
 
@@ -2572,7 +2572,7 @@ impl World {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriWorld_Save(self.raw(), if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) })?;
+            check_read(unsafe { sys::kiriWorld_Save(self.raw(), if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) }, "World::save")?;
             let needed = size as usize;
             if needed <= capacity {
                 unsafe { bytes.set_len(needed) };
@@ -2589,7 +2589,7 @@ impl World {
     /// [`ResultCode::ErrorMemory`], [`ResultCode::ErrorLimit`]: as in [`World::tick`].
     pub fn finish_cuts(&mut self) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_FinishCuts(self.raw_mut()) }, self)?;
+        check(unsafe { sys::kiriWorld_FinishCuts(self.raw_mut()) }, self, "World::finish_cuts")?;
         Ok(())
     }
 
@@ -2600,7 +2600,7 @@ impl World {
     /// [`ResultCode::ErrorMemory`].
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
+        check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self, "World::load")?;
         Ok(())
     }
 
@@ -2613,7 +2613,7 @@ impl World {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriWorld_Snapshot(self.raw(), if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) })?;
+            check_read(unsafe { sys::kiriWorld_Snapshot(self.raw(), if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) }, "World::snapshot")?;
             let needed = size as usize;
             if needed <= capacity {
                 unsafe { bytes.set_len(needed) };
@@ -2630,7 +2630,7 @@ impl World {
     /// build. [`ResultCode::ErrorState`]: it is recorded. [`ResultCode::ErrorMemory`].
     pub fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_Restore(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
+        check(unsafe { sys::kiriWorld_Restore(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self, "World::restore")?;
         Ok(())
     }
 
@@ -2638,7 +2638,7 @@ impl World {
     pub fn profile(&self) -> Result<Profile> {
         let mut profile = MaybeUninit::<sys::kiriProfile>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriWorld_GetProfile(self.raw(), profile.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriWorld_GetProfile(self.raw(), profile.as_mut_ptr()) }, "World::profile")?;
         // SAFETY: it filled the struct.
         let profile = unsafe { profile.assume_init() };
         Ok(Profile::from_raw(&profile))
@@ -2650,7 +2650,7 @@ impl World {
     pub fn create_sheet(&mut self, def: &SheetDef<'_>) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreateSheet(self.raw_mut(), &def.raw(), &mut sheet) }, self)?;
+        check(unsafe { sys::kiriCreateSheet(self.raw_mut(), &def.raw(), &mut sheet) }, self, "World::create_sheet")?;
         Ok(Sheet::known(sheet))
     }
 
@@ -2661,7 +2661,7 @@ impl World {
         let def = def.map(|def| def.raw());
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreateRectangle(self.raw_mut(), width, height, columns, rows, def.as_ref().map_or(std::ptr::null(), |def| def), &mut sheet) }, self)?;
+        check(unsafe { sys::kiriCreateRectangle(self.raw_mut(), width, height, columns, rows, def.as_ref().map_or(std::ptr::null(), |def| def), &mut sheet) }, self, "World::create_rectangle")?;
         Ok(Sheet::known(sheet))
     }
 
@@ -2670,7 +2670,7 @@ impl World {
     pub fn create_folded_sheet(&mut self, def: &SheetDef<'_>, folds: &[Fold]) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreateFoldedSheet(self.raw_mut(), &def.raw(), folds.as_ptr().cast(), folds.len() as i32, &mut sheet) }, self)?;
+        check(unsafe { sys::kiriCreateFoldedSheet(self.raw_mut(), &def.raw(), folds.as_ptr().cast(), folds.len() as i32, &mut sheet) }, self, "World::create_folded_sheet")?;
         Ok(Sheet::known(sheet))
     }
 
@@ -2680,7 +2680,7 @@ impl World {
         let mut sheet = 0;
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriWorld_Raycast(self.raw(), origin.as_ptr(), direction.as_ptr(), max_distance, &mut sheet, hit.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriWorld_Raycast(self.raw(), origin.as_ptr(), direction.as_ptr(), max_distance, &mut sheet, hit.as_mut_ptr()) }, "World::raycast")?;
         // SAFETY: it filled the struct.
         let hit = unsafe { hit.assume_init() };
         Ok((hit.triangle >= 0).then(|| (Sheet::known(sheet), Hit::from_raw(&hit))))
@@ -2692,7 +2692,7 @@ impl World {
     pub fn detach_pieces(&mut self, frames: &[Frame]) -> Result<Vec<Option<Sheet>>> {
         let mut detached = vec![None::<Sheet>; frames.len()];
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_DetachPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32, detached.as_mut_ptr().cast()) }, self)?;
+        check(unsafe { sys::kiriWorld_DetachPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32, detached.as_mut_ptr().cast()) }, self, "World::detach_pieces")?;
         Ok(detached)
     }
 
@@ -2701,7 +2701,7 @@ impl World {
     /// the sheet made of piece of frames\[i\], 0: pending.
     pub fn destroy_pieces(&mut self, frames: &[Frame]) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        let result = check(unsafe { sys::kiriWorld_DestroyPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32) }, self)?;
+        let result = check(unsafe { sys::kiriWorld_DestroyPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32) }, self, "World::destroy_pieces")?;
         Ok(Status::of(result))
     }
 
@@ -2711,7 +2711,7 @@ impl World {
     pub fn begin_blade(&mut self, sheet: Option<Sheet>) -> Result<Blade> {
         let mut blade = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriBeginBlade(self.raw_mut(), sheet.map_or(0, |id| id.raw()), &mut blade) }, self)?;
+        check(unsafe { sys::kiriBeginBlade(self.raw_mut(), sheet.map_or(0, |id| id.raw()), &mut blade) }, self, "World::begin_blade")?;
         Ok(Blade::known(blade))
     }
 
@@ -2721,7 +2721,7 @@ impl World {
     pub fn create_seam(&mut self, def: &SeamDef<'_>) -> Result<Seam> {
         let mut seam = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreateSeam(self.raw_mut(), &def.raw(), &mut seam) }, self)?;
+        check(unsafe { sys::kiriCreateSeam(self.raw_mut(), &def.raw(), &mut seam) }, self, "World::create_seam")?;
         Ok(Seam::known(seam))
     }
 
@@ -2732,7 +2732,7 @@ impl World {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriWorld_GetSeams(self.raw(), seams.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            check_read(unsafe { sys::kiriWorld_GetSeams(self.raw(), seams.as_mut_ptr().cast(), capacity as i32, &mut count) }, "World::seams")?;
             let needed = count as usize;
             if needed <= capacity {
                 unsafe { seams.set_len(needed) };
@@ -2749,7 +2749,7 @@ impl World {
     pub fn create_obstacle(&mut self, def: &ObstacleDef<'_>) -> Result<Obstacle> {
         let mut obstacle = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreateObstacle(self.raw_mut(), &def.raw(), &mut obstacle) }, self)?;
+        check(unsafe { sys::kiriCreateObstacle(self.raw_mut(), &def.raw(), &mut obstacle) }, self, "World::create_obstacle")?;
         Ok(Obstacle::known(obstacle))
     }
 }
@@ -2760,7 +2760,7 @@ impl Sheet {
     /// sheet; the line names them by index in the def.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriDestroySheet(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriDestroySheet(world.raw_mut(), self.raw()) }, world, "Sheet::destroy")?;
         Ok(())
     }
 
@@ -2770,7 +2770,7 @@ impl Sheet {
     pub fn settings(self, world: &World) -> Result<SheetSettings> {
         let mut settings = MaybeUninit::<sys::kiriSheetSettings>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetSettings(world.raw(), self.raw(), settings.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetSettings(world.raw(), self.raw(), settings.as_mut_ptr()) }, "Sheet::settings")?;
         // SAFETY: it filled the struct.
         let settings = unsafe { settings.assume_init() };
         Ok(SheetSettings::from_raw(&settings))
@@ -2781,7 +2781,7 @@ impl Sheet {
     /// differs. Motion, stiffness of pins and frames stay.
     pub fn set_settings(self, world: &mut World, settings: &SheetSettings) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetSettings(world.raw_mut(), self.raw(), &settings.raw()) }, world)?;
+        check(unsafe { sys::kiriSheet_SetSettings(world.raw_mut(), self.raw(), &settings.raw()) }, world, "Sheet::set_settings")?;
         Ok(())
     }
 
@@ -2791,7 +2791,7 @@ impl Sheet {
     pub fn add_fold(self, world: &mut World, fold: &Fold) -> Result<i32> {
         let mut index: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_AddFold(world.raw_mut(), self.raw(), &fold.raw(), &mut index) }, world)?;
+        check(unsafe { sys::kiriSheet_AddFold(world.raw_mut(), self.raw(), &fold.raw(), &mut index) }, world, "Sheet::add_fold")?;
         Ok(index)
     }
 
@@ -2800,7 +2800,7 @@ impl Sheet {
     pub fn fold(self, world: &World, index: i32) -> Result<FoldState> {
         let mut state = MaybeUninit::<sys::kiriFoldState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetFold(world.raw(), self.raw(), index, state.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetFold(world.raw(), self.raw(), index, state.as_mut_ptr()) }, "Sheet::fold")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(FoldState::from_raw(&state))
@@ -2810,7 +2810,7 @@ impl Sheet {
     /// Changes wake the sheet.
     pub fn set_fold(self, world: &mut World, index: i32, stiffness: f32, rest_angle: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetFold(world.raw_mut(), self.raw(), index, stiffness, rest_angle) }, world)?;
+        check(unsafe { sys::kiriSheet_SetFold(world.raw_mut(), self.raw(), index, stiffness, rest_angle) }, world, "Sheet::set_fold")?;
         Ok(())
     }
 
@@ -2818,7 +2818,7 @@ impl Sheet {
     pub fn mesh(self, world: &World) -> Result<Mesh<'_>> {
         let mut mesh = MaybeUninit::<sys::kiriMesh>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetMesh(world.raw(), self.raw(), mesh.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetMesh(world.raw(), self.raw(), mesh.as_mut_ptr()) }, "Sheet::mesh")?;
         // SAFETY: it filled the struct.
         let mesh = unsafe { mesh.assume_init() };
         Ok(Mesh::from_raw(&mesh))
@@ -2828,7 +2828,7 @@ impl Sheet {
     pub fn dirty(self, world: &World, since_revision: u32) -> Result<Dirty> {
         let mut dirty = MaybeUninit::<sys::kiriDirty>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetDirty(world.raw(), self.raw(), since_revision, dirty.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetDirty(world.raw(), self.raw(), since_revision, dirty.as_mut_ptr()) }, "Sheet::dirty")?;
         // SAFETY: it filled the struct.
         let dirty = unsafe { dirty.assume_init() };
         Ok(Dirty::from_raw(&dirty))
@@ -2840,7 +2840,7 @@ impl Sheet {
     pub fn copy_previous(self, world: &World, first: i32, vertices: &mut [i32]) -> Result<Sheet> {
         let mut from = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_CopyPrevious(world.raw(), self.raw(), first, vertices.len() as i32, vertices.as_mut_ptr().cast(), &mut from) })?;
+        check_read(unsafe { sys::kiriSheet_CopyPrevious(world.raw(), self.raw(), first, vertices.len() as i32, vertices.as_mut_ptr().cast(), &mut from) }, "Sheet::copy_previous")?;
         Ok(Sheet::known(from))
     }
 
@@ -2848,7 +2848,7 @@ impl Sheet {
     /// there are more than 65535 vertices.
     pub fn copy_indices16(self, world: &World, first_triangle: i32, indices: &mut [[u16; 3]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_CopyIndices16(world.raw(), self.raw(), first_triangle, indices.len() as i32, indices.as_mut_ptr().cast()) })?;
+        check_read(unsafe { sys::kiriSheet_CopyIndices16(world.raw(), self.raw(), first_triangle, indices.len() as i32, indices.as_mut_ptr().cast()) }, "Sheet::copy_indices16")?;
         Ok(())
     }
 
@@ -2857,7 +2857,7 @@ impl Sheet {
     /// also beside a welded seam (manual, meshes).
     pub fn copy_sources(self, world: &World, first_triangle: i32, sources: &mut [i32]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_CopySources(world.raw(), self.raw(), first_triangle, sources.len() as i32, sources.as_mut_ptr().cast()) })?;
+        check_read(unsafe { sys::kiriSheet_CopySources(world.raw(), self.raw(), first_triangle, sources.len() as i32, sources.as_mut_ptr().cast()) }, "Sheet::copy_sources")?;
         Ok(())
     }
 
@@ -2866,7 +2866,7 @@ impl Sheet {
     /// also beside a welded seam (manual, meshes).
     pub fn copy_source_weights(self, world: &World, first_triangle: i32, weights: &mut [[f32; 9]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_CopySourceWeights(world.raw(), self.raw(), first_triangle, weights.len() as i32, weights.as_mut_ptr().cast()) })?;
+        check_read(unsafe { sys::kiriSheet_CopySourceWeights(world.raw(), self.raw(), first_triangle, weights.len() as i32, weights.as_mut_ptr().cast()) }, "Sheet::copy_source_weights")?;
         Ok(())
     }
 
@@ -2874,7 +2874,7 @@ impl Sheet {
     pub fn solid(self, world: &mut World, thickness: f32) -> Result<Solid<'_>> {
         let mut solid = MaybeUninit::<sys::kiriSolid>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_GetSolid(world.raw_mut(), self.raw(), thickness, solid.as_mut_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_GetSolid(world.raw_mut(), self.raw(), thickness, solid.as_mut_ptr()) }, world, "Sheet::solid")?;
         // SAFETY: it filled the struct.
         let solid = unsafe { solid.assume_init() };
         Ok(Solid::from_raw(&solid))
@@ -2885,7 +2885,7 @@ impl Sheet {
         let mut positions = std::ptr::null();
         let mut count = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetCollisionPoints(world.raw(), self.raw(), &mut positions, &mut count) })?;
+        check_read(unsafe { sys::kiriSheet_GetCollisionPoints(world.raw(), self.raw(), &mut positions, &mut count) }, "Sheet::collision_points")?;
         Ok(unsafe { view(positions, count) })
     }
 
@@ -2893,7 +2893,7 @@ impl Sheet {
     pub fn counts(self, world: &World) -> Result<Counts> {
         let mut counts = MaybeUninit::<sys::kiriCounts>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetCounts(world.raw(), self.raw(), counts.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetCounts(world.raw(), self.raw(), counts.as_mut_ptr()) }, "Sheet::counts")?;
         // SAFETY: it filled the struct.
         let counts = unsafe { counts.assume_init() };
         Ok(Counts::from_raw(&counts))
@@ -2903,7 +2903,7 @@ impl Sheet {
     pub fn totals(self, world: &World) -> Result<Totals> {
         let mut totals = MaybeUninit::<sys::kiriTotals>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetTotals(world.raw(), self.raw(), totals.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetTotals(world.raw(), self.raw(), totals.as_mut_ptr()) }, "Sheet::totals")?;
         // SAFETY: it filled the struct.
         let totals = unsafe { totals.assume_init() };
         Ok(Totals::from_raw(&totals))
@@ -2914,7 +2914,7 @@ impl Sheet {
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_EstimateError(world.raw(), self.raw(), &mut relative) })?;
+        check_read(unsafe { sys::kiriSheet_EstimateError(world.raw(), self.raw(), &mut relative) }, "Sheet::estimate_error")?;
         Ok(relative)
     }
 
@@ -2923,7 +2923,7 @@ impl Sheet {
     pub fn is_awake(self, world: &World) -> Result<bool> {
         let mut awake: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_IsAwake(world.raw(), self.raw(), &mut awake) })?;
+        check_read(unsafe { sys::kiriSheet_IsAwake(world.raw(), self.raw(), &mut awake) }, "Sheet::is_awake")?;
         Ok(awake != 0)
     }
 
@@ -2931,7 +2931,7 @@ impl Sheet {
     /// [`Sheet::wake`] wakes all.
     pub fn wake(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_Wake(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriSheet_Wake(world.raw_mut(), self.raw()) }, world, "Sheet::wake")?;
         Ok(())
     }
 
@@ -2940,7 +2940,7 @@ impl Sheet {
     /// for pins on obstacles (manual, sheets).
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world, "Sheet::transform")?;
         Ok(())
     }
 
@@ -2949,7 +2949,7 @@ impl Sheet {
     /// motion across their plane; held frames stay held.
     pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Sheet::set_velocity")?;
         Ok(())
     }
 
@@ -2958,7 +2958,7 @@ impl Sheet {
     /// it, and a sheet that is made of it has both.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
+        check(unsafe { sys::kiriSheet_SetUserData(world.raw_mut(), self.raw(), data) }, world, "Sheet::set_user_data")?;
         Ok(())
     }
 
@@ -2968,7 +2968,7 @@ impl Sheet {
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetUserData(world.raw(), self.raw(), &mut data) })?;
+        check_read(unsafe { sys::kiriSheet_GetUserData(world.raw(), self.raw(), &mut data) }, "Sheet::user_data")?;
         Ok(data)
     }
 
@@ -2977,7 +2977,7 @@ impl Sheet {
     pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_Raycast(world.raw(), self.raw(), origin.as_ptr(), direction.as_ptr(), max_distance, hit.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_Raycast(world.raw(), self.raw(), origin.as_ptr(), direction.as_ptr(), max_distance, hit.as_mut_ptr()) }, "Sheet::raycast")?;
         // SAFETY: it filled the struct.
         let hit = unsafe { hit.assume_init() };
         Ok((hit.triangle >= 0).then(|| Hit::from_raw(&hit)))
@@ -2988,7 +2988,7 @@ impl Sheet {
     pub fn point(self, world: &World, rest_point: [f32; 2]) -> Result<PointState> {
         let mut state = MaybeUninit::<sys::kiriPointState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetPoint(world.raw(), self.raw(), rest_point.as_ptr(), state.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetPoint(world.raw(), self.raw(), rest_point.as_ptr(), state.as_mut_ptr()) }, "Sheet::point")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(PointState::from_raw(&state))
@@ -3005,7 +3005,7 @@ impl Sheet {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriSheet_GetWeights(world.raw(), self.raw(), rest_point.as_ptr(), frames.as_mut_ptr().cast(), weights.as_mut_ptr().cast(), gradients.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            check_read(unsafe { sys::kiriSheet_GetWeights(world.raw(), self.raw(), rest_point.as_ptr(), frames.as_mut_ptr().cast(), weights.as_mut_ptr().cast(), gradients.as_mut_ptr().cast(), capacity as i32, &mut count) }, "Sheet::weights")?;
             let needed = count as usize;
             if needed <= capacity {
                 unsafe { frames.set_len(needed) };
@@ -3026,7 +3026,7 @@ impl Sheet {
     pub fn piece(self, world: &mut World, piece: i32) -> Result<PieceState> {
         let mut state = MaybeUninit::<sys::kiriPieceState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_GetPiece(world.raw_mut(), self.raw(), piece, state.as_mut_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_GetPiece(world.raw_mut(), self.raw(), piece, state.as_mut_ptr()) }, world, "Sheet::piece")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(PieceState::from_raw(&state))
@@ -3037,7 +3037,7 @@ impl Sheet {
     pub fn piece_mesh(self, world: &mut World, piece: i32) -> Result<PieceMesh<'_>> {
         let mut mesh = MaybeUninit::<sys::kiriPieceMesh>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_GetPieceMesh(world.raw_mut(), self.raw(), piece, mesh.as_mut_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_GetPieceMesh(world.raw_mut(), self.raw(), piece, mesh.as_mut_ptr()) }, world, "Sheet::piece_mesh")?;
         // SAFETY: it filled the struct.
         let mesh = unsafe { mesh.assume_init() };
         Ok(PieceMesh::from_raw(&mesh))
@@ -3049,7 +3049,7 @@ impl Sheet {
         let mut frames = std::ptr::null();
         let mut count = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_GetPieceFrames(world.raw_mut(), self.raw(), piece, &mut frames, &mut count) }, world)?;
+        check(unsafe { sys::kiriSheet_GetPieceFrames(world.raw_mut(), self.raw(), piece, &mut frames, &mut count) }, world, "Sheet::piece_frames")?;
         Ok(unsafe { view(frames, count) })
     }
 
@@ -3058,7 +3058,7 @@ impl Sheet {
     pub fn drop_crumbs(self, world: &mut World, area: f32) -> Result<i32> {
         let mut count: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_DropCrumbs(world.raw_mut(), self.raw(), area, &mut count) }, world)?;
+        check(unsafe { sys::kiriSheet_DropCrumbs(world.raw_mut(), self.raw(), area, &mut count) }, world, "Sheet::drop_crumbs")?;
         Ok(count)
     }
 
@@ -3069,7 +3069,7 @@ impl Sheet {
     pub fn begin_cut(self, world: &mut World, rest_point: [f32; 2]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriBeginCut(world.raw_mut(), self.raw(), rest_point.as_ptr(), &mut cut) }, world)?;
+        check(unsafe { sys::kiriBeginCut(world.raw_mut(), self.raw(), rest_point.as_ptr(), &mut cut) }, world, "Sheet::begin_cut")?;
         Ok(Cut::known(cut))
     }
 
@@ -3079,7 +3079,7 @@ impl Sheet {
     pub fn slice(self, world: &mut World, blade: [f32; 12]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_Slice(world.raw_mut(), self.raw(), blade.as_ptr(), &mut cut) }, world)?;
+        check(unsafe { sys::kiriSheet_Slice(world.raw_mut(), self.raw(), blade.as_ptr(), &mut cut) }, world, "Sheet::slice")?;
         Ok(Cut::known(cut))
     }
 
@@ -3087,7 +3087,7 @@ impl Sheet {
     /// model other than [`Model::Links`].
     pub fn set_tearing(self, world: &mut World, tearing: &Tearing) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetTearing(world.raw_mut(), self.raw(), &tearing.raw()) }, world)?;
+        check(unsafe { sys::kiriSheet_SetTearing(world.raw_mut(), self.raw(), &tearing.raw()) }, world, "Sheet::set_tearing")?;
         Ok(())
     }
 
@@ -3096,7 +3096,7 @@ impl Sheet {
     pub fn tearing(self, world: &World) -> Result<Tearing> {
         let mut tearing = MaybeUninit::<sys::kiriTearing>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetTearing(world.raw(), self.raw(), tearing.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetTearing(world.raw(), self.raw(), tearing.as_mut_ptr()) }, "Sheet::tearing")?;
         // SAFETY: it filled the struct.
         let tearing = unsafe { tearing.assume_init() };
         Ok(Tearing::from_raw(&tearing))
@@ -3107,7 +3107,7 @@ impl Sheet {
     /// there. The same points again replace it (manual, tearing).
     pub fn set_tear_line(self, world: &mut World, rest_points: &[[f32; 2]], factor: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetTearLine(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, factor) }, world)?;
+        check(unsafe { sys::kiriSheet_SetTearLine(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, factor) }, world, "Sheet::set_tear_line")?;
         Ok(())
     }
 
@@ -3118,7 +3118,7 @@ impl Sheet {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriSheet_GetFrames(world.raw(), self.raw(), frames.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            check_read(unsafe { sys::kiriSheet_GetFrames(world.raw(), self.raw(), frames.as_mut_ptr().cast(), capacity as i32, &mut count) }, "Sheet::frames")?;
             let needed = count as usize;
             if needed <= capacity {
                 unsafe { frames.set_len(needed) };
@@ -3134,7 +3134,7 @@ impl Sheet {
     /// torque (N m).
     pub fn apply_force(self, world: &mut World, rest_point: [f32; 2], force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_ApplyForce(world.raw_mut(), self.raw(), rest_point.as_ptr(), force.as_ptr(), torque.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_ApplyForce(world.raw_mut(), self.raw(), rest_point.as_ptr(), force.as_ptr(), torque.as_ptr()) }, world, "Sheet::apply_force")?;
         Ok(())
     }
 
@@ -3143,14 +3143,14 @@ impl Sheet {
     /// [`ResultCode::ErrorArgument`]: the line meets no material.
     pub fn apply_line_load(self, world: &mut World, from: [f32; 2], to: [f32; 2], force_per_length: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_ApplyLineLoad(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), force_per_length.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_ApplyLineLoad(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), force_per_length.as_ptr()) }, world, "Sheet::apply_line_load")?;
         Ok(())
     }
 
     /// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
     pub fn apply_pressure(self, world: &mut World, pressure: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_ApplyPressure(world.raw_mut(), self.raw(), pressure) }, world)?;
+        check(unsafe { sys::kiriSheet_ApplyPressure(world.raw_mut(), self.raw(), pressure) }, world, "Sheet::apply_pressure")?;
         Ok(())
     }
 
@@ -3159,14 +3159,14 @@ impl Sheet {
     /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
     pub fn apply_impulse(self, world: &mut World, rest_point: [f32; 2], impulse: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_ApplyImpulse(world.raw_mut(), self.raw(), rest_point.as_ptr(), impulse.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriSheet_ApplyImpulse(world.raw_mut(), self.raw(), rest_point.as_ptr(), impulse.as_ptr()) }, world, "Sheet::apply_impulse")?;
         Ok(())
     }
 
     /// Copies the wind; it blows until the next call.
     pub fn set_wind(self, world: &mut World, wind: &Wind) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetWind(world.raw_mut(), self.raw(), &wind.raw()) }, world)?;
+        check(unsafe { sys::kiriSheet_SetWind(world.raw_mut(), self.raw(), &wind.raw()) }, world, "Sheet::set_wind")?;
         Ok(())
     }
 
@@ -3175,7 +3175,7 @@ impl Sheet {
     pub fn create_pin(self, world: &mut World, def: &PinDef) -> Result<Pin> {
         let mut pin = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCreatePin(world.raw_mut(), self.raw(), &def.raw(), &mut pin) }, world)?;
+        check(unsafe { sys::kiriCreatePin(world.raw_mut(), self.raw(), &def.raw(), &mut pin) }, world, "Sheet::create_pin")?;
         Ok(Pin::known(pin))
     }
 
@@ -3185,7 +3185,7 @@ impl Sheet {
     pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_ClampLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut clamp) }, world)?;
+        check(unsafe { sys::kiriSheet_ClampLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut clamp) }, world, "Sheet::clamp_line")?;
         Ok(Pin::known(clamp))
     }
 
@@ -3195,7 +3195,7 @@ impl Sheet {
     pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_HingeLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut hinge) }, world)?;
+        check(unsafe { sys::kiriSheet_HingeLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut hinge) }, world, "Sheet::hinge_line")?;
         Ok(Pin::known(hinge))
     }
 
@@ -3206,7 +3206,7 @@ impl Sheet {
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriSheet_GetPins(world.raw(), self.raw(), pins.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            check_read(unsafe { sys::kiriSheet_GetPins(world.raw(), self.raw(), pins.as_mut_ptr().cast(), capacity as i32, &mut count) }, "Sheet::pins")?;
             let needed = count as usize;
             if needed <= capacity {
                 unsafe { pins.set_len(needed) };
@@ -3222,7 +3222,7 @@ impl Sheet {
     /// starts with its impulse.
     pub fn set_contacts(self, world: &mut World, contacts: &[Contact]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSheet_SetContacts(world.raw_mut(), self.raw(), contacts.as_ptr().cast(), contacts.len() as i32) }, world)?;
+        check(unsafe { sys::kiriSheet_SetContacts(world.raw_mut(), self.raw(), contacts.as_ptr().cast(), contacts.len() as i32) }, world, "Sheet::set_contacts")?;
         Ok(())
     }
 
@@ -3232,7 +3232,7 @@ impl Sheet {
         let mut forces = std::ptr::null();
         let mut count = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetContactForces(world.raw(), self.raw(), &mut forces, &mut count) })?;
+        check_read(unsafe { sys::kiriSheet_GetContactForces(world.raw(), self.raw(), &mut forces, &mut count) }, "Sheet::contact_forces")?;
         Ok(unsafe { view(forces, count) })
     }
 
@@ -3242,7 +3242,7 @@ impl Sheet {
         let mut lower: [f32; 3] = Default::default();
         let mut upper: [f32; 3] = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSheet_GetReach(world.raw(), self.raw(), dt, lower.as_mut_ptr(), upper.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSheet_GetReach(world.raw(), self.raw(), dt, lower.as_mut_ptr(), upper.as_mut_ptr()) }, "Sheet::reach")?;
         Ok((lower, upper))
     }
 }
@@ -3253,7 +3253,7 @@ impl Frame {
     /// motion across their plane; held frames stay held.
     pub fn set_piece_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_SetPieceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriFrame_SetPieceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Frame::set_piece_velocity")?;
         Ok(())
     }
 
@@ -3262,7 +3262,7 @@ impl Frame {
     /// it, and a sheet that is made of it has both.
     pub fn set_piece_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_SetPieceUserData(world.raw_mut(), self.raw(), data) }, world)?;
+        check(unsafe { sys::kiriFrame_SetPieceUserData(world.raw_mut(), self.raw(), data) }, world, "Frame::set_piece_user_data")?;
         Ok(())
     }
 
@@ -3272,7 +3272,7 @@ impl Frame {
     pub fn piece_user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriFrame_GetPieceUserData(world.raw(), self.raw(), &mut data) })?;
+        check_read(unsafe { sys::kiriFrame_GetPieceUserData(world.raw(), self.raw(), &mut data) }, "Frame::piece_user_data")?;
         Ok(data)
     }
 
@@ -3281,7 +3281,7 @@ impl Frame {
     pub fn piece(self, world: &World) -> Result<i32> {
         let mut piece: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriFrame_GetPiece(world.raw(), self.raw(), &mut piece) })?;
+        check_read(unsafe { sys::kiriFrame_GetPiece(world.raw(), self.raw(), &mut piece) }, "Frame::piece")?;
         Ok(piece)
     }
 
@@ -3294,7 +3294,7 @@ impl Frame {
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_DetachPiece(world.raw_mut(), self.raw(), &mut detached) }, world)?;
+        check(unsafe { sys::kiriFrame_DetachPiece(world.raw_mut(), self.raw(), &mut detached) }, world, "Frame::detach_piece")?;
         Ok(Sheet::from_raw(detached))
     }
 
@@ -3303,7 +3303,7 @@ impl Frame {
     /// corners, and [`Counts`] counts it, with a state of zeros.
     pub fn destroy_piece(self, world: &mut World) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world)?;
+        let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world, "Frame::destroy_piece")?;
         Ok(Status::of(result))
     }
 
@@ -3312,7 +3312,7 @@ impl Frame {
     /// frames mostly carry moves through obstacles.
     pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world)?;
+        check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world, "Frame::hold")?;
         Ok(())
     }
 
@@ -3322,7 +3322,7 @@ impl Frame {
     pub fn state(self, world: &World) -> Result<FrameState> {
         let mut state = MaybeUninit::<sys::kiriFrameState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriFrame_GetState(world.raw(), self.raw(), state.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriFrame_GetState(world.raw(), self.raw(), state.as_mut_ptr()) }, "Frame::state")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(FrameState::from_raw(&state))
@@ -3335,7 +3335,7 @@ impl Frame {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriFrame_GetReaction(world.raw(), self.raw(), force.as_mut_ptr(), torque.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriFrame_GetReaction(world.raw(), self.raw(), force.as_mut_ptr(), torque.as_mut_ptr()) }, "Frame::reaction")?;
         Ok((force, torque))
     }
 
@@ -3343,7 +3343,7 @@ impl Frame {
     /// torque (N m).
     pub fn apply_force(self, world: &mut World, force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriFrame_ApplyForce(world.raw_mut(), self.raw(), force.as_ptr(), torque.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriFrame_ApplyForce(world.raw_mut(), self.raw(), force.as_ptr(), torque.as_ptr()) }, world, "Frame::apply_force")?;
         Ok(())
     }
 }
@@ -3354,7 +3354,7 @@ impl Pin {
     /// it, and a sheet that is made of it has both.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriPin_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
+        check(unsafe { sys::kiriPin_SetUserData(world.raw_mut(), self.raw(), data) }, world, "Pin::set_user_data")?;
         Ok(())
     }
 
@@ -3364,7 +3364,7 @@ impl Pin {
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriPin_GetUserData(world.raw(), self.raw(), &mut data) })?;
+        check_read(unsafe { sys::kiriPin_GetUserData(world.raw(), self.raw(), &mut data) }, "Pin::user_data")?;
         Ok(data)
     }
 
@@ -3372,7 +3372,7 @@ impl Pin {
     /// [`ResultCode::ErrorArgument`]: outside.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world, "Pin::destroy")?;
         Ok(())
     }
 
@@ -3382,7 +3382,7 @@ impl Pin {
     /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world, "Pin::set_target")?;
         Ok(())
     }
 
@@ -3392,14 +3392,14 @@ impl Pin {
     /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_pose(self, world: &mut World, target: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world, "Pin::set_pose")?;
         Ok(())
     }
 
     /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn set_break_force(self, world: &mut World, break_force: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriPin_SetBreakForce(world.raw_mut(), self.raw(), break_force) }, world)?;
+        check(unsafe { sys::kiriPin_SetBreakForce(world.raw_mut(), self.raw(), break_force) }, world, "Pin::set_break_force")?;
         Ok(())
     }
 
@@ -3409,7 +3409,7 @@ impl Pin {
     pub fn state(self, world: &World) -> Result<PinState> {
         let mut state = MaybeUninit::<sys::kiriPinState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriPin_GetState(world.raw(), self.raw(), state.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriPin_GetState(world.raw(), self.raw(), state.as_mut_ptr()) }, "Pin::state")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(PinState::from_raw(&state))
@@ -3422,7 +3422,7 @@ impl Pin {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriPin_GetReaction(world.raw(), self.raw(), force.as_mut_ptr(), torque.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriPin_GetReaction(world.raw(), self.raw(), force.as_mut_ptr(), torque.as_mut_ptr()) }, "Pin::reaction")?;
         Ok((force, torque))
     }
 }
@@ -3434,7 +3434,7 @@ impl Cut {
     /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
     pub fn extend(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world)?;
+        check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world, "Cut::extend")?;
         Ok(())
     }
 
@@ -3444,7 +3444,7 @@ impl Cut {
     /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world, "Cut::end")?;
         Ok(())
     }
 }
@@ -3455,7 +3455,7 @@ impl Blade {
     /// cuts along its own way. End it: cuts stay.
     pub fn move_edge(self, world: &mut World, from: [f32; 3], to: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world, "Blade::move_edge")?;
         Ok(())
     }
 
@@ -3464,7 +3464,7 @@ impl Blade {
     /// cuts along its own way. End it: cuts stay.
     pub fn move_ray(self, world: &mut World, origin: [f32; 3], direction: [f32; 3], length: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world)?;
+        check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world, "Blade::move_ray")?;
         Ok(())
     }
 
@@ -3473,7 +3473,7 @@ impl Blade {
     /// cuts along its own way. End it: cuts stay.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world, "Blade::end")?;
         Ok(())
     }
 }
@@ -3484,7 +3484,7 @@ impl Seam {
     /// material; a sheet is planar; models differ (manual, sewing).
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world, "Seam::destroy")?;
         Ok(())
     }
 
@@ -3493,7 +3493,7 @@ impl Seam {
     /// material; a sheet is planar; models differ (manual, sewing).
     pub fn set_hinge(self, world: &mut World, stiffness: f32, rest_angle: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriSeam_SetHinge(world.raw_mut(), self.raw(), stiffness, rest_angle) }, world)?;
+        check(unsafe { sys::kiriSeam_SetHinge(world.raw_mut(), self.raw(), stiffness, rest_angle) }, world, "Seam::set_hinge")?;
         Ok(())
     }
 
@@ -3502,7 +3502,7 @@ impl Seam {
     pub fn stitch(self, world: &World, index: i32) -> Result<Stitch> {
         let mut stitch = MaybeUninit::<sys::kiriStitch>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSeam_GetStitch(world.raw(), self.raw(), index, stitch.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriSeam_GetStitch(world.raw(), self.raw(), index, stitch.as_mut_ptr()) }, "Seam::stitch")?;
         // SAFETY: it filled the struct.
         let stitch = unsafe { stitch.assume_init() };
         Ok(Stitch::from_raw(&stitch))
@@ -3513,7 +3513,7 @@ impl Seam {
     pub fn count(self, world: &World) -> Result<i32> {
         let mut stitches: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriSeam_GetCount(world.raw(), self.raw(), &mut stitches) })?;
+        check_read(unsafe { sys::kiriSeam_GetCount(world.raw(), self.raw(), &mut stitches) }, "Seam::count")?;
         Ok(stitches)
     }
 }
@@ -3523,7 +3523,7 @@ impl Obstacle {
     /// Pieces on it wake.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriDestroyObstacle(world.raw_mut(), self.raw()) }, world)?;
+        check(unsafe { sys::kiriDestroyObstacle(world.raw_mut(), self.raw()) }, world, "Obstacle::destroy")?;
         Ok(())
     }
 
@@ -3531,7 +3531,7 @@ impl Obstacle {
     /// ([`Obstacle::set_velocity`]), not to the jump.
     pub fn set_pose(self, world: &mut World, position: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriObstacle_SetPose(world.raw_mut(), self.raw(), position.as_ptr(), rotation.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriObstacle_SetPose(world.raw_mut(), self.raw(), position.as_ptr(), rotation.as_ptr()) }, world, "Obstacle::set_pose")?;
         Ok(())
     }
 
@@ -3539,7 +3539,7 @@ impl Obstacle {
     /// inertia and centre of mass.
     pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriObstacle_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriObstacle_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Obstacle::set_velocity")?;
         Ok(())
     }
 
@@ -3547,7 +3547,7 @@ impl Obstacle {
     /// inertia and centre of mass.
     pub fn set_surface_velocity(self, world: &mut World, velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriObstacle_SetSurfaceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriObstacle_SetSurfaceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr()) }, world, "Obstacle::set_surface_velocity")?;
         Ok(())
     }
 
@@ -3555,7 +3555,7 @@ impl Obstacle {
     /// inertia and centre of mass.
     pub fn set_mass(self, world: &mut World, mass: f32, inertia: [f32; 6], center_of_mass: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriObstacle_SetMass(world.raw_mut(), self.raw(), mass, inertia.as_ptr(), center_of_mass.as_ptr()) }, world)?;
+        check(unsafe { sys::kiriObstacle_SetMass(world.raw_mut(), self.raw(), mass, inertia.as_ptr(), center_of_mass.as_ptr()) }, world, "Obstacle::set_mass")?;
         Ok(())
     }
 
@@ -3563,7 +3563,7 @@ impl Obstacle {
     pub fn state(self, world: &World) -> Result<ObstacleState> {
         let mut state = MaybeUninit::<sys::kiriObstacleState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check_read(unsafe { sys::kiriObstacle_GetState(world.raw(), self.raw(), state.as_mut_ptr()) })?;
+        check_read(unsafe { sys::kiriObstacle_GetState(world.raw(), self.raw(), state.as_mut_ptr()) }, "Obstacle::state")?;
         // SAFETY: it filled the struct.
         let state = unsafe { state.assume_init() };
         Ok(ObstacleState::from_raw(&state))

@@ -21,7 +21,9 @@ pub use host::{Allocator, Part, Parts, Task, WorldDef};
 pub struct Error {
     /// The result of C.
     pub code: ResultCode,
-    /// What was wrong; or "".
+    /// The function, such as `Sheet::point`.
+    pub call: &'static str,
+    /// What was wrong.
     pub line: String,
 }
 
@@ -30,7 +32,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if self.line.is_empty() { result_name(self.code) } else { &self.line })
+        write!(f, "{}: {} ({:?})", self.call, self.line, self.code)
     }
 }
 
@@ -58,34 +60,49 @@ impl Status {
 
 // ---- Results
 
-fn error(result: i32, line: String) -> Error {
-    Error { code: ResultCode::known(result), line }
+/// A line of C begins with its name for the call, and ends with the code; fields are named as in C.
+fn error(result: i32, call: &'static str, line: &str) -> Error {
+    let code = ResultCode::known(result);
+    let line = line.split_once(": ").map_or(result_text(code), |(_, why)| why);
+    let line = line.strip_suffix(&format!(" ({})", result_name(code))).unwrap_or(line);
+    let mut own = String::new();
+    let mut starts_low = false; // the word
+    for (before, c) in std::iter::once(' ').chain(line.chars()).zip(line.chars()) {
+        starts_low = if before.is_alphanumeric() { starts_low } else { c.is_lowercase() };
+        if starts_low && c.is_uppercase() {
+            own.push('_');
+            own.push(c.to_ascii_lowercase());
+        } else {
+            own.push(c);
+        }
+    }
+    Error { code, call, line: own }
 }
 
 /// Of functions that change the world.
-fn check(result: i32, world: &World) -> Result<i32> {
+fn check(result: i32, world: &World, call: &'static str) -> Result<i32> {
     if result >= 0 {
         Ok(result)
     } else {
-        Err(error(result, world.last_error().to_owned()))
+        Err(error(result, call, world.last_error()))
     }
 }
 
 /// Of functions that read it: these give their line to the log.
-fn check_read(result: i32) -> Result<i32> {
+fn check_read(result: i32, call: &'static str) -> Result<i32> {
     if result >= 0 {
         Ok(result)
     } else {
-        Err(error(result, host::take_line()))
+        Err(error(result, call, &host::take_line()))
     }
 }
 
 /// Of functions without a world.
-fn fail(result: i32) -> Result<i32> {
+fn fail(result: i32, call: &'static str) -> Result<i32> {
     if result >= 0 {
         Ok(result)
     } else {
-        Err(error(result, String::new()))
+        Err(error(result, call, ""))
     }
 }
 
@@ -133,7 +150,7 @@ impl World {
         let (raw_def, host) = def.into_raw();
         let mut raw = std::ptr::null_mut();
         // SAFETY: the hooks stay where they are, in their box, until the world is gone.
-        check_read(unsafe { sys::kiriCreateWorld(&raw_def, &mut raw) })?;
+        check_read(unsafe { sys::kiriCreateWorld(&raw_def, &mut raw) }, "World::new")?;
         Ok(Self { raw: NonNull::new(raw).expect("the library gives a world"), _host: host })
     }
 
@@ -157,7 +174,7 @@ impl World {
     pub fn events(&self) -> Result<Events<'_>> {
         let (mut rows, mut count) = (std::ptr::null(), 0);
         // SAFETY: the rows stay until the next tick.
-        check_read(unsafe { sys::kiriWorld_GetEvents(self.raw(), &mut rows, &mut count) })?;
+        check_read(unsafe { sys::kiriWorld_GetEvents(self.raw(), &mut rows, &mut count) }, "World::events")?;
         Ok(Events(unsafe { view(rows, count) }.iter()))
     }
 }
@@ -240,7 +257,7 @@ impl Sheet {
         let rows: *mut u8 = vertices.as_mut_ptr().cast();
         let stride = stride as i32;
         // SAFETY: each vertex has 12 bytes at these offsets, which may be any.
-        check_read(unsafe {
+        let result = unsafe {
             let normals = V::NORMAL.map_or(std::ptr::null_mut(), |at| rows.wrapping_add(at));
             sys::kiriSheet_CopyVertices(
                 world.raw(),
@@ -252,7 +269,8 @@ impl Sheet {
                 normals.cast(),
                 stride,
             )
-        })?;
+        };
+        check_read(result, "Sheet::copy_vertices")?;
         Ok(())
     }
 
@@ -288,7 +306,7 @@ impl<'r> Replay<'r> {
         // SAFETY: the recording has so many bytes.
         let result =
             unsafe { sys::kiriWorld_Replay(world.raw_mut(), self.recording.as_ptr().cast(), size, &mut self.raw) };
-        Ok(Status::of(check(result, world)?))
+        Ok(Status::of(check(result, world, "Replay::step")?))
     }
 
     /// Where it stopped at a note: its bytes.

@@ -51,11 +51,16 @@ fn errors_have_a_code_and_a_line() {
     let refused =
         sheet.create_pin(&mut world, &kiri::PinDef { rest_point: [7.0, 7.0], ..Default::default() }).unwrap_err();
     assert_eq!(refused.code, ResultCode::ErrorArgument);
-    assert_eq!(refused.line, world.last_error());
-    assert!(!refused.line.is_empty());
+    assert!(!refused.line.is_empty() && world.last_error().starts_with("kiriCreatePin: "));
+    let def = kiri::PinDef { break_force: f32::NAN, ..Default::default() };
+    let refused = sheet.create_pin(&mut world, &def).unwrap_err().to_string();
+    assert_eq!(refused, "Sheet::create_pin: def.break_force is NaN, not 0 or more (ErrorArgument)");
     let refused = sheet.point(&world, [7.0, 7.0]).unwrap_err();
-    assert!(refused.code == ResultCode::ErrorArgument && !refused.line.is_empty());
-    assert!(refused.to_string().starts_with("kiriSheet_GetPoint: "));
+    assert!(
+        refused.code == ResultCode::ErrorArgument && refused.call == "Sheet::point" && !refused.line.contains("KIRI")
+    );
+    let refused = kiri::fill_rectangle(0.0, 1.0, 1, 1).unwrap_err();
+    assert!(refused.to_string().starts_with("fill_rectangle: ") && !refused.line.is_empty());
     sheet.destroy(&mut world).unwrap();
     assert_eq!(sheet.counts(&world).unwrap_err().code, ResultCode::ErrorId);
 }
