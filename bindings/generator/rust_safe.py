@@ -432,7 +432,10 @@ class Call:
     def _in_array(self, p, name):
         if isinstance(p["length"], int):
             kind = f"[{self._s._of_number(p['type'])}; {p['length']}]"
-            self._takes.append(f"{name}: Option<{kind}>" if p["nullable"] else f"{name}: {kind}")
+            takes = f"impl Into<{kind}>" if p["length"] in (2, 3, 9) else kind  # vectors and matrices of other crates, too
+            self._takes.append(f"{name}: Option<{kind}>" if p["nullable"] else f"{name}: {takes}")
+            if not p["nullable"] and takes != kind:
+                self._before.append(f"let {name}: {kind} = {name}.into();")
             self._arguments.append(f"{name}.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())" if p["nullable"]
                                    else f"{name}.as_ptr()")
         else:

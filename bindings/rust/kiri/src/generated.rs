@@ -2506,14 +2506,16 @@ impl World {
     /// Moves the origin of the world to a point (m), as large worlds need: subtracts it from all
     /// positions. Nothing wakes. Returned arrays keep the old positions until the next tick.
     /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
-    pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
+    pub fn shift_origin(&mut self, origin: impl Into<[f32; 3]>) -> Result<()> {
+        let origin: [f32; 3] = origin.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self, "World::shift_origin")?;
         Ok(())
     }
 
     /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
-    pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
+    pub fn set_gravity(&mut self, gravity: impl Into<[f32; 3]>) -> Result<()> {
+        let gravity: [f32; 3] = gravity.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self, "World::set_gravity")?;
         Ok(())
@@ -2676,7 +2678,9 @@ impl World {
 
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
     /// hit-\>triangle -1: it does not.
-    pub fn raycast(&self, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
+    pub fn raycast(&self, origin: impl Into<[f32; 3]>, direction: impl Into<[f32; 3]>, max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
+        let origin: [f32; 3] = origin.into();
+        let direction: [f32; 3] = direction.into();
         let mut sheet = 0;
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2938,7 +2942,9 @@ impl Sheet {
     /// Teleports the sheet: every point x (m, world) moves to R x + t; velocities turn, and it
     /// wakes. A planar sheet turns about its normal only. Targets of pins and holds move along, but
     /// for pins on obstacles (manual, sheets).
-    pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
+    pub fn transform(self, world: &mut World, rotation: impl Into<[f32; 9]>, translation: impl Into<[f32; 3]>) -> Result<()> {
+        let rotation: [f32; 9] = rotation.into();
+        let translation: [f32; 3] = translation.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world, "Sheet::transform")?;
         Ok(())
@@ -2947,7 +2953,9 @@ impl Sheet {
     /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: velocity
     /// (m/s) of its centre of mass, and `angular_velocity` (rad/s) about it. Planar sheets drop
     /// motion across their plane; held frames stay held.
-    pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
+    pub fn set_velocity(self, world: &mut World, velocity: impl Into<[f32; 3]>, angular_velocity: impl Into<[f32; 3]>) -> Result<()> {
+        let velocity: [f32; 3] = velocity.into();
+        let angular_velocity: [f32; 3] = angular_velocity.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Sheet::set_velocity")?;
         Ok(())
@@ -2974,7 +2982,9 @@ impl Sheet {
 
     /// Find where a ray first meets the sheet, or any (\*sheet 0: none), up to `max_distance`;
     /// hit-\>triangle -1: it does not.
-    pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
+    pub fn raycast(self, world: &World, origin: impl Into<[f32; 3]>, direction: impl Into<[f32; 3]>, max_distance: f32) -> Result<Option<Hit>> {
+        let origin: [f32; 3] = origin.into();
+        let direction: [f32; 3] = direction.into();
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_Raycast(world.raw(), self.raw(), origin.as_ptr(), direction.as_ptr(), max_distance, hit.as_mut_ptr()) }, "Sheet::raycast")?;
@@ -2985,7 +2995,8 @@ impl Sheet {
 
     /// Gets the state of a point. [`ResultCode::ErrorArgument`]: it is outside the sheet. On a cut:
     /// on a lip that has the point.
-    pub fn point(self, world: &World, rest_point: [f32; 2]) -> Result<PointState> {
+    pub fn point(self, world: &World, rest_point: impl Into<[f32; 2]>) -> Result<PointState> {
+        let rest_point: [f32; 2] = rest_point.into();
         let mut state = MaybeUninit::<sys::kiriPointState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_GetPoint(world.raw(), self.raw(), rest_point.as_ptr(), state.as_mut_ptr()) }, "Sheet::point")?;
@@ -2997,7 +3008,8 @@ impl Sheet {
     /// Gets the shape functions at a rest point: up to capacity frames with weights, sum 1, and
     /// unless null gradients (2 floats, 1/m). \*count: all. [`ResultCode::ErrorArgument`]: outside
     /// the sheet. [`ResultCode::ErrorState`]: work on a cut is pending.
-    pub fn weights(self, world: &World, rest_point: [f32; 2]) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
+    pub fn weights(self, world: &World, rest_point: impl Into<[f32; 2]>) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
+        let rest_point: [f32; 2] = rest_point.into();
         let mut frames = Vec::<Frame>::new();
         let mut weights = Vec::<f32>::new();
         let mut gradients = Vec::<[f32; 2]>::new();
@@ -3066,7 +3078,8 @@ impl Sheet {
     /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
     /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
     /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
-    pub fn begin_cut(self, world: &mut World, rest_point: [f32; 2]) -> Result<Cut> {
+    pub fn begin_cut(self, world: &mut World, rest_point: impl Into<[f32; 2]>) -> Result<Cut> {
+        let rest_point: [f32; 2] = rest_point.into();
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBeginCut(world.raw_mut(), self.raw(), rest_point.as_ptr(), &mut cut) }, world, "Sheet::begin_cut")?;
@@ -3132,7 +3145,10 @@ impl Sheet {
 
     /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
     /// torque (N m).
-    pub fn apply_force(self, world: &mut World, rest_point: [f32; 2], force: [f32; 3], torque: [f32; 3]) -> Result<()> {
+    pub fn apply_force(self, world: &mut World, rest_point: impl Into<[f32; 2]>, force: impl Into<[f32; 3]>, torque: impl Into<[f32; 3]>) -> Result<()> {
+        let rest_point: [f32; 2] = rest_point.into();
+        let force: [f32; 3] = force.into();
+        let torque: [f32; 3] = torque.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyForce(world.raw_mut(), self.raw(), rest_point.as_ptr(), force.as_ptr(), torque.as_ptr()) }, world, "Sheet::apply_force")?;
         Ok(())
@@ -3141,7 +3157,10 @@ impl Sheet {
     /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
     /// material, edges included. Along a cut each lip gets half. The ends differ.
     /// [`ResultCode::ErrorArgument`]: the line meets no material.
-    pub fn apply_line_load(self, world: &mut World, from: [f32; 2], to: [f32; 2], force_per_length: [f32; 3]) -> Result<()> {
+    pub fn apply_line_load(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>, force_per_length: impl Into<[f32; 3]>) -> Result<()> {
+        let from: [f32; 2] = from.into();
+        let to: [f32; 2] = to.into();
+        let force_per_length: [f32; 3] = force_per_length.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyLineLoad(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), force_per_length.as_ptr()) }, world, "Sheet::apply_line_load")?;
         Ok(())
@@ -3157,7 +3176,9 @@ impl Sheet {
     /// Applies an impulse (N s, world) at a point of the material on the visible surface, at once,
     /// by the mass of the frames that carry the point; a held frame's share is lost.
     /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
-    pub fn apply_impulse(self, world: &mut World, rest_point: [f32; 2], impulse: [f32; 3]) -> Result<()> {
+    pub fn apply_impulse(self, world: &mut World, rest_point: impl Into<[f32; 2]>, impulse: impl Into<[f32; 3]>) -> Result<()> {
+        let rest_point: [f32; 2] = rest_point.into();
+        let impulse: [f32; 3] = impulse.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyImpulse(world.raw_mut(), self.raw(), rest_point.as_ptr(), impulse.as_ptr()) }, world, "Sheet::apply_impulse")?;
         Ok(())
@@ -3182,7 +3203,9 @@ impl Sheet {
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
     /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
-    pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
+    pub fn clamp_line(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>) -> Result<Pin> {
+        let from: [f32; 2] = from.into();
+        let to: [f32; 2] = to.into();
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ClampLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut clamp) }, world, "Sheet::clamp_line")?;
@@ -3192,7 +3215,9 @@ impl Sheet {
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
     /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
-    pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
+    pub fn hinge_line(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>) -> Result<Pin> {
+        let from: [f32; 2] = from.into();
+        let to: [f32; 2] = to.into();
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_HingeLine(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), &mut hinge) }, world, "Sheet::hinge_line")?;
@@ -3251,7 +3276,9 @@ impl Frame {
     /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: velocity
     /// (m/s) of its centre of mass, and `angular_velocity` (rad/s) about it. Planar sheets drop
     /// motion across their plane; held frames stay held.
-    pub fn set_piece_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
+    pub fn set_piece_velocity(self, world: &mut World, velocity: impl Into<[f32; 3]>, angular_velocity: impl Into<[f32; 3]>) -> Result<()> {
+        let velocity: [f32; 3] = velocity.into();
+        let angular_velocity: [f32; 3] = angular_velocity.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_SetPieceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Frame::set_piece_velocity")?;
         Ok(())
@@ -3341,7 +3368,9 @@ impl Frame {
 
     /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
     /// torque (N m).
-    pub fn apply_force(self, world: &mut World, force: [f32; 3], torque: [f32; 3]) -> Result<()> {
+    pub fn apply_force(self, world: &mut World, force: impl Into<[f32; 3]>, torque: impl Into<[f32; 3]>) -> Result<()> {
+        let force: [f32; 3] = force.into();
+        let torque: [f32; 3] = torque.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_ApplyForce(world.raw_mut(), self.raw(), force.as_ptr(), torque.as_ptr()) }, world, "Frame::apply_force")?;
         Ok(())
@@ -3380,7 +3409,8 @@ impl Pin {
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
     /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
-    pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
+    pub fn set_target(self, world: &mut World, target: impl Into<[f32; 3]>) -> Result<()> {
+        let target: [f32; 3] = target.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world, "Pin::set_target")?;
         Ok(())
@@ -3390,7 +3420,9 @@ impl Pin {
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
     /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
     /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
-    pub fn set_pose(self, world: &mut World, target: [f32; 3], rotation: [f32; 9]) -> Result<()> {
+    pub fn set_pose(self, world: &mut World, target: impl Into<[f32; 3]>, rotation: impl Into<[f32; 9]>) -> Result<()> {
+        let target: [f32; 3] = target.into();
+        let rotation: [f32; 9] = rotation.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world, "Pin::set_pose")?;
         Ok(())
@@ -3453,7 +3485,9 @@ impl Blade {
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
     /// that a camera casts; each end goes straight. The first call only places it. An end inside
     /// cuts along its own way. End it: cuts stay.
-    pub fn move_edge(self, world: &mut World, from: [f32; 3], to: [f32; 3]) -> Result<()> {
+    pub fn move_edge(self, world: &mut World, from: impl Into<[f32; 3]>, to: impl Into<[f32; 3]>) -> Result<()> {
+        let from: [f32; 3] = from.into();
+        let to: [f32; 3] = to.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world, "Blade::move_edge")?;
         Ok(())
@@ -3462,7 +3496,9 @@ impl Blade {
     /// Move the blade to the straight edge between two points (m, world), or length m along a ray
     /// that a camera casts; each end goes straight. The first call only places it. An end inside
     /// cuts along its own way. End it: cuts stay.
-    pub fn move_ray(self, world: &mut World, origin: [f32; 3], direction: [f32; 3], length: f32) -> Result<()> {
+    pub fn move_ray(self, world: &mut World, origin: impl Into<[f32; 3]>, direction: impl Into<[f32; 3]>, length: f32) -> Result<()> {
+        let origin: [f32; 3] = origin.into();
+        let direction: [f32; 3] = direction.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world, "Blade::move_ray")?;
         Ok(())
@@ -3529,7 +3565,9 @@ impl Obstacle {
 
     /// Teleports the obstacle (m, world). Sheets react to its velocity
     /// ([`Obstacle::set_velocity`]), not to the jump.
-    pub fn set_pose(self, world: &mut World, position: [f32; 3], rotation: [f32; 9]) -> Result<()> {
+    pub fn set_pose(self, world: &mut World, position: impl Into<[f32; 3]>, rotation: impl Into<[f32; 9]>) -> Result<()> {
+        let position: [f32; 3] = position.into();
+        let rotation: [f32; 9] = rotation.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetPose(world.raw_mut(), self.raw(), position.as_ptr(), rotation.as_ptr()) }, world, "Obstacle::set_pose")?;
         Ok(())
@@ -3537,7 +3575,9 @@ impl Obstacle {
 
     /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
     /// inertia and centre of mass.
-    pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
+    pub fn set_velocity(self, world: &mut World, velocity: impl Into<[f32; 3]>, angular_velocity: impl Into<[f32; 3]>) -> Result<()> {
+        let velocity: [f32; 3] = velocity.into();
+        let angular_velocity: [f32; 3] = angular_velocity.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world, "Obstacle::set_velocity")?;
         Ok(())
@@ -3545,7 +3585,8 @@ impl Obstacle {
 
     /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
     /// inertia and centre of mass.
-    pub fn set_surface_velocity(self, world: &mut World, velocity: [f32; 3]) -> Result<()> {
+    pub fn set_surface_velocity(self, world: &mut World, velocity: impl Into<[f32; 3]>) -> Result<()> {
+        let velocity: [f32; 3] = velocity.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetSurfaceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr()) }, world, "Obstacle::set_surface_velocity")?;
         Ok(())
@@ -3553,7 +3594,8 @@ impl Obstacle {
 
     /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
     /// inertia and centre of mass.
-    pub fn set_mass(self, world: &mut World, mass: f32, inertia: [f32; 6], center_of_mass: [f32; 3]) -> Result<()> {
+    pub fn set_mass(self, world: &mut World, mass: f32, inertia: [f32; 6], center_of_mass: impl Into<[f32; 3]>) -> Result<()> {
+        let center_of_mass: [f32; 3] = center_of_mass.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetMass(world.raw_mut(), self.raw(), mass, inertia.as_ptr(), center_of_mass.as_ptr()) }, world, "Obstacle::set_mass")?;
         Ok(())

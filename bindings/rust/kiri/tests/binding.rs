@@ -296,3 +296,21 @@ fn debug_draw_goes_to_a_closure() {
     assert!(counts[kiri::Shape::Triangles as usize] == 3 * 128 && counts[kiri::Shape::Lines as usize] > 0);
     assert!(world.debug_draw(&kiri::DebugDraw { size: -1.0, ..what }, |_, _| ()).is_err());
 }
+
+#[test]
+fn vectors_of_glam_and_mint_are_taken() {
+    let (mut world, sheet) = small();
+    world.set_gravity(glam::Vec3::ZERO).unwrap();
+    let frame = sheet.frames(&world).unwrap()[0];
+    frame.apply_force(&mut world, mint::Vector3 { x: 0.0, y: 0.0, z: 1.0 }, glam::Vec3::ZERO).unwrap();
+    let _ = world.tick(1.0 / 60.0, 1).unwrap();
+    let mesh = sheet.mesh(&world).unwrap();
+    let positions: &[glam::Vec3] = bytemuck::cast_slice(mesh.positions);
+    assert!(positions.len() == mesh.positions.len() && positions.iter().any(|position| position.z > 1e-6));
+    let ball = kiri::ObstacleDef { position: glam::vec3(0.0, 0.0, 9.0).into(), ..Default::default() };
+    let ball = world.create_obstacle(&ball).unwrap();
+    let turned = mint::ColumnMatrix3::from([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+    ball.set_pose(&mut world, glam::Vec3::X, turned).unwrap();
+    let state = ball.state(&world).unwrap();
+    assert!(glam::Vec3::from(state.position) == glam::Vec3::X && state.rotation == <[f32; 9]>::from(turned));
+}
