@@ -627,14 +627,17 @@ def test_example():
         assert "came off" in lines[0] and "state hash" in lines[-1]
 
 
-def test_pieces_are_plotted():
+def test_notebook():
     if subprocess.run([sys.executable, "-c", "import numpy, matplotlib"], capture_output=True).returncode:
-        print("no numpy or no matplotlib: pieces.py not tested")
+        print("no numpy or no matplotlib: pieces.ipynb not tested")
         return
+    cells = json.loads((repository / "bindings/python/pieces.ipynb").read_text())["cells"]
+    code = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder) / "pieces.png"
-        lines = run_python(str(repository / "bindings/python/pieces.py"), str(picture)).stdout.splitlines()
-        assert lines == ["3 pieces"] and picture.read_bytes().startswith(b"\x89PNG")
+        ending = f"\nfigure.savefig({str(picture)!r})\nprint(len(space.collections), flat.get_legend() is not None)"
+        lines = run_python("-c", f"import matplotlib\nmatplotlib.use('Agg')\n{code}{ending}").stdout.splitlines()
+        assert lines == ["3 pieces", "3 True"] and picture.read_bytes().startswith(b"\x89PNG")
 
 
 def test_example_says_what_is_missing():

@@ -13,7 +13,7 @@ import kiri
 import pygame
 
 WIDTH, HEIGHT = 960, 640
-TICK, SUBSTEPS = 1 / 60, 2
+TICK = 1 / 60
 SCALE = 2  # pixels drawn for one that is seen, along each side
 BUDGET = {"cells": 32000, "samples": 4000}  # of work on cuts in a tick: about 2 ms
 SKY, FLOOR, INK = (243, 234, 217), (206, 189, 163), (52, 46, 60)
@@ -42,9 +42,10 @@ class Curtain:
         self.world = kiri.World(budget=BUDGET)
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_PLANE, friction=0.8)
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.22, position=(0.15, 0.24, 0.45))
-        self.sheet = self.world.create_rectangle(
-            1.5, 1.0, 42, 28, position=(-0.75, 0.0, 0.18), axisU=(1, 0, 0), axisV=(0, 0, 1), frameCount=24,
-            gridResolution=48, collisionPoints=400, touchesSheets=1)
+        setup = vars(kiri.setup(kiri.SetupPreset.CURTAIN, 1.5, 1.0))
+        self.substeps = setup.pop("substeps")
+        self.sheet = self.world.create_rectangle(1.5, 1.0, position=(-0.75, 0.0, 0.18), axisU=(1, 0, 0), axisV=(0, 0, 1),
+                                                 collisionPoints=400, touchesSheets=1, **setup)
         for i in range(7):
             u = 0.01 + 1.48 * i / 6
             self.sheet.create_pin((u, 0.99), (0.94 * (u - 0.75), 0.04 * (-1) ** i, 1.17))
@@ -62,7 +63,7 @@ class Curtain:
                 self.blade.end()
                 self.blade = None
         self.way.clear()
-        self.world.tick(TICK, SUBSTEPS)
+        self.world.tick(TICK, self.substeps)
 
 
 # ---- Drawing ---------------------------------------------------------------------------------------------------------
