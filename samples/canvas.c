@@ -1,3 +1,4 @@
+#define GL_GLEXT_PROTOTYPES
 #include "canvas_parts.h"
 
 #include "offscreen.h"
@@ -35,6 +36,8 @@ struct Canvas {
     CanvasTextDrawer* drawText;
     int32_t width, height, oversampling;
     GLuint shadowTextures[3]; /* of the grounds */
+    GLuint depthTexture, shader; /* of shadows on things; shader 0: none */
+    float lightMatrices[2][16];  /* projection, view */
     TextureSlot textures[TEXTURES];
     int32_t nextTexture;
 
@@ -50,6 +53,36 @@ struct Canvas {
     Overlay overlay;
     bool failed; /* for want of memory */
 };
+
+/* Multiplies the colour by the part of the light that comes through, the mean over a small square. */
+static const char shaderText[] =
+    "uniform sampler2D print; uniform sampler2DShadow depth; uniform bool hasPrint;"
+    "void main() {"
+    "  float lit = 0.0;"
+    "  for (float x = -1.5; x < 2.0; x++) for (float y = -1.5; y < 2.0; y++)"
+    "    lit += shadow2D(depth, gl_TexCoord[1].xyz + vec3(x, y, 0.0) * 0.002).r;"
+    "  vec3 color = hasPrint ? texture2D(print, gl_TexCoord[0].xy).rgb : vec3(1.0);"
+    "  gl_FragColor = vec4(gl_Color.rgb * color * lit / 16.0, gl_Color.a);"
+    "}";
+
+static GLuint MakeShader(void)
+{
+    const char* text = shaderText;
+    GLuint shader = glCreateShader(GL_FRAGMENT_SHADER), program = glCreateProgram();
+    GLint isFine = 0;
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &isFine);
+    if (isFine == 0) {
+        return 0;
+    }
+    glUseProgram(program);
+    glUniform1i(glGetUniformLocation(program, "depth"), 1);
+    glUseProgram(0);
+    return program;
+}
 
 /* ---- What there is to see --------------------------------------------------------------------------------------- */
 
@@ -69,6 +102,8 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, Canva
         return NULL;
     }
     glGenTextures(3, canvas->shadowTextures);
+    glGenTextures(1, &canvas->depthTexture);
+    canvas->shader = oversampling > 2 ? MakeShader() : 0;
     for (int32_t i = 0; i < TEXTURES; i++) {
         glGenTextures(1, &canvas->textures[i].name);
     }
@@ -327,6 +362,60 @@ static void DrawShadow(const Canvas* canvas, int axis)
     glDisable(GL_TEXTURE_2D);
 }
 
+/* ---- Shadows of things on things --------------------------------------------------------------------------------- */
+
+/* How far the light goes, as a texture. Uses a corner of the picture: it comes first. */
+static void MakeDepth(Canvas* canvas)
+{
+    const float* at = canvas->camera.target;
+    const float from[3] = { at[0] + toLight[0], at[1] + toLight[1], at[2] + toLight[2] };
+    int32_t size = canvas->oversampling * (canvas->width < canvas->height ? canvas->width : canvas->height);
+    float right[3], up[3], back[3], away = CanvasCamera_GetAxes(&canvas->camera, right, up, back);
+    float reach = 1.5f * CanvasCamera_GetHalfHeight(&canvas->camera, away);
+    glViewport(0, 0, size, size);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glOrtho(-reach, reach, -reach, reach, -4.0f * reach, 4.0f * reach);
+    CanvasCamera_GetAxes(&(CanvasCamera){ .eye = { from[0], from[1], from[2] }, .target = { at[0], at[1], at[2] } }, right, up, back);
+    Offscreen_LookFrom(at, right, up, back);
+    glGetFloatv(GL_PROJECTION_MATRIX, canvas->lightMatrices[0]);
+    glGetFloatv(GL_MODELVIEW_MATRIX, canvas->lightMatrices[1]);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(12.0f, 16.0f);
+    DrawFlat(canvas);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glBindTexture(GL_TEXTURE_2D, canvas->depthTexture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, (float[]){ 1.0f, 1.0f, 1.0f, 1.0f });
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_R_TO_TEXTURE);
+    glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, 0, 0, size, size, 0);
+}
+
+/* Texture coordinates of unit 1 become places in the light's view. The current matrix is of the camera. */
+static void UseDepth(const Canvas* canvas)
+{
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, canvas->depthTexture);
+    for (int i = 0; i < 4; i++) {
+        const float axis[4] = { i == 0, i == 1, i == 2, i == 3 };
+        glTexGeni(GL_S + (GLenum)i, GL_TEXTURE_GEN_MODE, GL_EYE_LINEAR);
+        glTexGenfv(GL_S + (GLenum)i, GL_EYE_PLANE, axis);
+        glEnable(GL_TEXTURE_GEN_S + (GLenum)i);
+    }
+    glMatrixMode(GL_TEXTURE);
+    glLoadIdentity();
+    glTranslatef(0.5f, 0.5f, 0.5f);
+    glScalef(0.5f, 0.5f, 0.5f);
+    glMultMatrixf(canvas->lightMatrices[0]);
+    glMultMatrixf(canvas->lightMatrices[1]);
+    glMatrixMode(GL_MODELVIEW);
+    glActiveTexture(GL_TEXTURE0);
+}
+
 /* ---- Sheets and bodies ------------------------------------------------------------------------------------------ */
 
 static void SetMaterial(GLenum face, Color color)
@@ -387,12 +476,15 @@ static void ResetTexture(void)
     glMatrixMode(GL_MODELVIEW);
 }
 
-static void DrawSheet(Canvas* canvas, const CanvasSheet* sheet)
+static void DrawSheet(Canvas* canvas, const CanvasSheet* sheet, bool isLit)
 {
     SetMaterial(GL_FRONT, sheet->front);
     SetMaterial(GL_BACK, sheet->back);
     if (sheet->texture != NULL) {
         SetTexture(canvas, sheet->texture);
+    }
+    if (isLit) {
+        glUniform1i(glGetUniformLocation(canvas->shader, "hasPrint"), sheet->texture != NULL);
     }
     glEnableClientState(GL_NORMAL_ARRAY);
     glEnableClientState(GL_TEXTURE_COORD_ARRAY);
@@ -457,10 +549,8 @@ static void DrawMarks(const Canvas* canvas, float scale)
     glEnable(GL_DEPTH_TEST);
 }
 
-static void DrawScene(Canvas* canvas, float scale)
+static void DrawThings(Canvas* canvas, bool isLit)
 {
-    SetLights();
-    glEnable(GL_LIGHTING);
     for (int32_t i = 0; i < canvas->bodyCount; i++) {
         SetMaterial(GL_FRONT_AND_BACK, canvas->bodies[i].color);
         CanvasBody_Draw(&canvas->bodies[i]);
@@ -468,9 +558,40 @@ static void DrawScene(Canvas* canvas, float scale)
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0f, 4.0f);
     for (int32_t i = 0; i < canvas->sheetCount; i++) {
-        DrawSheet(canvas, &canvas->sheets[i]);
+        DrawSheet(canvas, &canvas->sheets[i], isLit);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+/* Adds the light that throws shadows to the others. */
+static void AddLight(Canvas* canvas)
+{
+    UseDepth(canvas);
+    glLightModelfv(GL_LIGHT_MODEL_AMBIENT, (float[]){ 0.0f, 0.0f, 0.0f, 1.0f });
+    glEnable(GL_LIGHT0);
+    glDisable(GL_LIGHT1);
+    glDisable(GL_LIGHT2);
+    glUseProgram(canvas->shader);
+    glUniform1i(glGetUniformLocation(canvas->shader, "hasPrint"), 0); /* of bodies */
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE);
+    glDepthFunc(GL_LEQUAL);
+    DrawThings(canvas, true);
+    glDepthFunc(GL_LESS);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glUseProgram(0);
+}
+
+static void DrawScene(Canvas* canvas, float scale)
+{
+    SetLights();
+    glEnable(GL_LIGHTING);
+    if (canvas->shader != 0) {
+        glDisable(GL_LIGHT0);
+    }
+    DrawThings(canvas, false);
+    if (canvas->shader != 0) {
+        AddLight(canvas);
+    }
     glDisable(GL_LIGHTING);
     DrawOpenEdges(canvas, scale);
     for (int32_t i = 0; i < canvas->lineCount; i++) {
@@ -542,6 +663,9 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
     int32_t columns = canvas->oversampling * canvas->width, rows = canvas->oversampling * canvas->height;
     float scale = (float)rows / CANVAS_HEIGHT;
     glEnableClientState(GL_VERTEX_ARRAY);
+    if (canvas->shader != 0) {
+        MakeDepth(canvas);
+    }
     for (int axis = 1; axis < 3; axis++) {
         if (canvas->grounds[axis].isThere) {
             MakeShadow(canvas, axis);

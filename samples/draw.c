@@ -18,7 +18,8 @@ static const float knifeAxes[9] = { 0.788f, 0.544f, -0.289f, 0.0f, 0.469f, 0.883
 struct Painter {
     Canvas* canvas;
     EdgeLines edges[2];
-    uint8_t cloth[3 * CLOTH_SIZE * CLOTH_SIZE];
+    uint8_t cloth[3 * CLOTH_SIZE * CLOTH_SIZE], print[3 * PRINT_SIZE * PRINT_SIZE];
+    bool isPrinted;
     uint32_t rasters; /* painted */
 };
 
@@ -95,7 +96,15 @@ static bool AddSheet(Painter* painter, const View* view, bool isSecond, float si
     } else if (look->checks > 0.0f) {
         float side = size / look->checks;
         *texture = (CanvasTexture){ painter->cloth, CLOTH_SIZE, CLOTH_SIZE, { 0.0f, 0.0f }, side, side, 0 };
+        if (view->print != NULL) {
+            texture->rgb = painter->print;
+            texture->columns = texture->rows = PRINT_SIZE;
+        }
         sheet.texture = texture;
+    }
+    if (view->print != NULL && !painter->isPrinted) {
+        view->print(painter->print);
+        painter->isPrinted = true;
     }
     Canvas_AddSheet(painter->canvas, &sheet);
     return true;

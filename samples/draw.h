@@ -13,6 +13,7 @@ typedef struct View {
     kiriMesh mesh;
     bool isSolid; /* it has rims: no lines along its edges */
     Look look;
+    void (*print)(uint8_t* rgb); /* of the scene's type */
     kiriMesh second; /* another sheet with its own look; no triangles: none */
     Look secondLook;
     const CanvasBody* bodies;

@@ -14,7 +14,7 @@ static const SceneType* const types[] = {
     &bunnyScene,  &spiralScene,     &kirigamiScene, &patchworkScene,
     &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
     &miuraScene,  &cardScene,       &craneScene,    &shirtScene,
-    &lanternScene, &patchScene,
+    &lanternScene, &patchScene,      &letterScene,   &stampsScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)

@@ -45,6 +45,8 @@ enum { SCENE_MOMENTS = 6 };
 
 typedef struct Scene Scene;
 
+enum { PRINT_SIZE = 256 };
+
 typedef struct SceneType {
     const char* name;
     const char* about;
@@ -55,6 +57,7 @@ typedef struct SceneType {
     int32_t moments[SCENE_MOMENTS]; /* ticks worth a picture, rising */
     Camera camera;
     Look look, secondLook; /* secondLook: of Scene.second */
+    void (*print)(uint8_t* rgb); /* fills PRINT_SIZE x PRINT_SIZE pixels in place of each check of the sheet; or null */
     bool pegs; /* pins are pegs in a wall behind the sheet; else knots of threads from above */
     bool (*start)(Scene* scene, const SceneOptions* options); /* makes the sheet, its pins, and the strokes */
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */

@@ -188,7 +188,7 @@ bool Scene_AddFloor(Scene* scene)
 
 /* ---- Bodies ----------------------------------------------------------------------------------------------------- */
 
-bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], float radius)
+bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], float radius, uint32_t groups)
 {
     const float size = scene->type->size;
     kiriObstacleDef* def = &scene->bodies[scene->bodyCount];
@@ -202,6 +202,7 @@ bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], floa
     length = sqrtf(length);
     def->type = length > 0.0f ? KIRI_OBSTACLE_CAPSULE : KIRI_OBSTACLE_SPHERE;
     def->radius = size * radius;
+    def->groups = groups;
     def->height = size * length;
     if (length > 0.0f) { /* axis w; u is across it and y, or x where w is along y */
         const float w[3] = { way[0] / length, way[1] / length, way[2] / length };

@@ -56,8 +56,8 @@ int32_t Scene_GetEnclosedFrames(const Scene* scene, const Stroke* stroke, kiriFr
 /* The floor z = 0, for all sheets. */
 bool Scene_AddFloor(Scene* scene);
 
-/* A capsule between two points, or a ball at one. */
-bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], float radius);
+/* A capsule between two points, or a ball at one. groups: of kiriObstacleDef. */
+bool Scene_AddCapsule(Scene* scene, const float from[3], const float to[3], float radius, uint32_t groups);
 
 /* 0 to 1 from one tick to another, without a jerk. */
 float Scene_Ease(int32_t tick, int32_t first, int32_t last);

@@ -121,7 +121,7 @@ static bool AddMan(Scene* scene)
     };
     bool fine = true;
     for (size_t i = 0; fine && i < sizeof limbs / sizeof limbs[0]; i++) {
-        fine = Scene_AddCapsule(scene, limbs[i], limbs[i] + 3, limbs[i][6]);
+        fine = Scene_AddCapsule(scene, limbs[i], limbs[i] + 3, limbs[i][6], UINT32_MAX);
     }
     return fine;
 }
@@ -265,7 +265,8 @@ static bool StartPatch(Scene* scene, const SceneOptions* options)
     for (int32_t i = 0; fine && i < 5; i++) {
         fine = Scene_PinHere(scene, &def, 0.25f * (float)i, 1.0f);
     }
-    return fine && Scene_AddCapsule(scene, (float[]){ 0.0f, 0.6f, 0.62f }, (float[]){ 0.0f, 0.6f, 0.62f }, 0.13f) &&
+    return fine && Scene_AddCapsule(scene, (float[]){ 0.0f, 0.6f, 0.62f }, (float[]){ 0.0f, 0.6f, 0.62f }, 0.13f,
+                            UINT32_MAX) &&
            Outline_AddSpiral(Scene_AddStroke(scene), &hole);
 }
 

@@ -95,6 +95,7 @@ bool Shot_Take(Shot* shot, const Scene* scene, const Options* options, Image* im
     View view = { .camera = scene->type->camera,
                   .size = scene->type->size,
                   .look = scene->type->look,
+                  .print = scene->type->print,
                   .pins = scene->targets[0],
                   .pinCount = scene->pinCount,
                   .pegs = scene->type->pegs };

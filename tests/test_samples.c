@@ -61,6 +61,14 @@ static void Start(Scene* scene, const char* name)
     StartAt(scene, name, 0.0f);
 }
 
+static void Play(Scene* scene, const char* name)
+{
+    Start(scene, name);
+    while (scene->tick < scene->type->ticks) {
+        assert_true(TickScene(scene) >= 0);
+    }
+}
+
 TEST(Table)
 {
     for (int i = 0; i < ROWS; i++) {
@@ -404,10 +412,7 @@ TEST(FoldScenes)
     for (int i = 0; i < 3; i++) {
         SCOPED(Scene, scene, Scene_Stop);
         kiriCounts counts;
-        Start(&scene, names[i]);
-        for (int32_t tick = 0; tick < scene.type->ticks; tick++) {
-            assert_true(TickScene(&scene) >= 0);
-        }
+        Play(&scene, names[i]);
         kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
         assert_int_equal(counts.pieces, i == 0 ? 2 : 1);
         for (int k = 0; k < 3; k++) {
@@ -430,10 +435,7 @@ TEST(SewnScenes)
         kiriStitch stitch;
         int32_t count = 0, stitches = 0;
         float worst = 0.0f;
-        Start(&scene, names[i]);
-        for (int32_t tick = 0; tick < scene.type->ticks; tick++) {
-            assert_true(TickScene(&scene) >= 0);
-        }
+        Play(&scene, names[i]);
         assert_int_equal(kiriWorld_GetSeams(scene.world, seams, 8, &count), KIRI_OK);
         assert_int_equal(count, i == 0 ? 6 : 1);
         for (int32_t k = 0; k < count; k++) {
@@ -444,6 +446,22 @@ TEST(SewnScenes)
         }
         print_message("%s: %d stitches, %.2g m apart\n", names[i], (int)stitches, (double)worst);
         assert_true(stitches > 10 && worst < 1e-3f);
+    }
+}
+
+/* All parts are torn along the lines: a strip off a letter, a stamp and a column of two off a sheet of twelve. */
+TEST(TornScenes)
+{
+    static const double areas[2][3] = { { 0.01728, 0.00432 }, { 9 * 625e-6, 625e-6, 2 * 625e-6 } }; /* m^2 */
+    for (int i = 0; i < 2; i++) {
+        SCOPED(Scene, scene, Scene_Stop);
+        kiriPieceState piece;
+        int32_t pieces = 0;
+        Play(&scene, i == 0 ? "letter" : "stamps");
+        for (; kiriSheet_GetPiece(scene.world, scene.sheet, pieces, &piece) == KIRI_OK; pieces++) {
+            assert_true(pieces < 3 && fabs(piece.area - areas[i][pieces]) < 0.01 * piece.area);
+        }
+        assert_int_equal(pieces, 2 + i);
     }
 }
 

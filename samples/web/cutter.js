@@ -69,6 +69,7 @@ export class Cutter {
 
     /** point: in the sheet, or null where there is none. down: whether it cuts. */
     place(tool, point, down, camera) {
+        tool = tool === "tear" ? "grab" : tool;
         for (const [name, model] of Object.entries(this.models)) {
             model.visible = name === tool && Boolean(point);
         }

@@ -14,7 +14,7 @@ import { Skin } from "./skin.js";
 import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
 import { Task } from "./task.js";
-import { Grab, Knife, Scissors, Snowflake } from "./tools.js";
+import { Grab, Knife, Scissors, Snowflake, Tear } from "./tools.js";
 
 const UNDOS = 24;
 const MOST_TICK = 8, SLOW_TICKS = 20; // ms; ticks in turn that take longer: then the quality goes down
@@ -25,7 +25,7 @@ class Game {
     choice = { sheet: "paper", tool: "knife", quality: 1, hangs: "rod", folded: false };
     sound = new Sound();
     undos = [];
-    tools = { knife: Knife, scissors: Scissors, grab: Grab };
+    tools = { knife: Knife, scissors: Scissors, grab: Grab, tear: Tear };
     behind = 0; // s that the world is behind the clock
     smooth = false; // pictures come more often than ticks: they show what is between two
     task = null;
@@ -43,8 +43,9 @@ class Game {
         addEventListener("resize", () => this.stage.resize());
     }
 
+    /** No blade: a pin holds the sheet. */
     get grabs() {
-        return this.choice.tool === "grab";
+        return this.choice.tool === "grab" || this.choice.tool === "tear";
     }
 
     get isReplaying() {

@@ -6,6 +6,7 @@ const ICONS = {
     knife: "M4 20l4-1 11-11a2.1 2.1 0 0 0-3-3L5 16zM14 7l3 3",
     scissors: "M20 4 8.6 15.4M14.8 14.8 20 20M8.6 8.6 12 12M9 6a3 3 0 1 1-6 0 3 3 0 0 1 6 0zM9 18a3 3 0 1 1-6 0 3 3 0 0 1 6 0z",
     grab: "M8 12V6.5a1.5 1.5 0 0 1 3 0V11 5a1.5 1.5 0 0 1 3 0v6-4.5a1.5 1.5 0 0 1 3 0V14c0 4-2 7-5.5 7S7 19 5 15l-1-2a1.4 1.4 0 0 1 2.4-1.4L8 14",
+    tear: "M5 3h14v7M5 3v18h4l-1-4 3-2-1-4 4-1M13 21l-1-3 3-2-1-3 5 1v7z",
     undo: "M9 7 4 12l5 5M4 12h10a6 6 0 0 1 6 6",
     fresh: "M6 3h8l4 4v14H6zM14 3v4h4",
 };
@@ -39,7 +40,7 @@ export class Panel {
     constructor(game) {
         this.game = game;
         const at = (id) => document.getElementById(id);
-        this.pressTool = choice(at("tools"), { knife: "Knife", scissors: "Scissors", grab: "Grab" }, game.choice.tool,
+        this.pressTool = choice(at("tools"), { knife: "Knife", scissors: "Scissors", grab: "Grab", tear: "Tear" }, game.choice.tool,
             (name) => { game.choice.tool = name; });
         this.pressSheet = choice(at("sheets"), { paper: "Paper", cloth: "Cloth", foil: "Foil", rubber: "Rubber" }, game.choice.sheet,
             (name) => game.restart({ sheet: name, hangs: "rod", folded: false }));

@@ -1,7 +1,11 @@
 // What a finger does on the sheet. A tool has begin, move and end, with rays of the window, and `at`, where it is.
 
+import { SIZE } from "./simulation.js";
+
 const DEPTH = 0.1; // m: how far behind the sheet a blade reaches
 const SNIP = 0.011; // m: of scissors
+const PULL = 300; // N/m: of a hand that tears
+const NOTCH = { near: 0.06, beside: 0.02, long: 0.02 }; // m from the border to the finger, from the finger to the notch; its length
 
 const add = (a, b, by) => [a[0] + b[0] * by, a[1] + b[1] * by, a[2] + b[2] * by];
 
@@ -52,10 +56,15 @@ export class Grab {
         this.game = game;
     }
 
+    /** N/m; 0: as the library has it. */
+    get stiffness() {
+        return 0;
+    }
+
     begin(ray, hit) {
         this.distance = hit.distance;
         this.at = hit.position;
-        this.pin = this.game.simulation.sheet.createPin({ restPoint: hit.restPoint, target: hit.position });
+        this.pin = this.game.simulation.sheet.createPin({ restPoint: hit.restPoint, target: hit.position, stiffness: this.stiffness });
     }
 
     move({ origin, direction }) {
@@ -64,6 +73,42 @@ export class Grab {
 
     end() {
         this.pin.destroy();
+    }
+}
+
+/** Pulls at the sheet until it tears: from the ends of cuts, or from a notch that it makes where a finger takes the border. */
+export class Tear extends Grab {
+    begin(ray, hit) {
+        const { sheet, options } = this.game.simulation;
+        sheet.setTearing({ toughness: options.material.toughness });
+        this.notch(sheet, hit.restPoint);
+        super.begin(ray, hit);
+    }
+
+    get stiffness() {
+        return PULL;
+    }
+
+    /** From the nearest border but the upper one, above the finger or towards the middle. */
+    notch(sheet, [u, v]) {
+        const beside = NOTCH.beside, aside = Math.min(u, SIZE - u), inward = Math.sign(SIZE / 2 - u) || 1;
+        if (aside < v && aside < NOTCH.near && v + beside < SIZE) {
+            const border = inward > 0 ? 0 : SIZE;
+            this.cut(sheet, [border - 0.002 * inward, v + beside], [border + NOTCH.long * inward, v + beside]);
+        } else if (v < NOTCH.near) {
+            this.cut(sheet, [u + beside * inward, -0.002], [u + beside * inward, NOTCH.long]);
+        }
+    }
+
+    cut(sheet, from, to) {
+        const cut = sheet.beginCut(from);
+        cut.extend(to);
+        cut.end();
+    }
+
+    end() {
+        super.end();
+        this.game.simulation.sheet.setTearing({ toughness: 0 });
     }
 }
 
