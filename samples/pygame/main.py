@@ -71,7 +71,7 @@ class Curtain:
 
 def color_of(rest, normal):
     """Stripes by where the material is, so that they stay on their pieces, with light from both sides."""
-    stripe = STRIPES[int(14 * rest[0] / 1.5) % 2]
+    stripe = STRIPES[int(16 * rest[0] / 1.5) % 2]
     light = 0.45 + 0.55 * abs(sum(a * b for a, b in zip(normal, LIGHT)))
     return tuple(int(min(255, light * part)) for part in stripe)
 
