@@ -122,7 +122,7 @@ test("arguments are checked before the library sees them", () => inWorld((world)
     throwsCode(() => world.setGravity([NaN, 0, 0]), ResultCode.ErrorArgument);
     assert.throws(() => world.setGravity([NaN, 0, 0]), { message: "World.setGravity: gravity[0] is NaN, not finite (ErrorArgument)" });
     assert.throws(() => sheet.getPoint([9, 9]), { message: /^Sheet\.getPoint: [^:]+ \(ErrorArgument\)$/ });
-    assert.throws(() => fillRectangle(0, 1, 1, 1), { message: /^fillRectangle: [^:]+ \(ErrorArgument\)$/ });
+    assert.throws(() => kiri.fillRectangle(0, 1, 1, 1), { message: /^fillRectangle: [^:]+ \(ErrorArgument\)$/ });
     inWorld((other) => throwsCode(() => other.beginBlade(sheet), ResultCode.ErrorId));
 }));
 
