@@ -138,8 +138,9 @@ static void BecomeEuler(kiriSolver* solver, const kiriSystem* system)
 
 static bool IsSamePose(const kiriPose* a, const kiriPose* b)
 {
-    return kiriVec3_Equal(a->x, b->x) && kiriVec3_Equal(a->A.u, b->A.u) && kiriVec3_Equal(a->A.v, b->A.v) &&
-           kiriVec3_Equal(a->A.d, b->A.d);
+    double rounding = KIRI_LAST_BITS * kiriVec3_Length(b->x); /* of a held frame at rest */
+    return kiriVec3_Distance(a->x, b->x) <= rounding && kiriVec3_Equal(a->A.u, b->A.u) &&
+           kiriVec3_Equal(a->A.v, b->A.v) && kiriVec3_Equal(a->A.d, b->A.d);
 }
 
 /* Returns true if the host moves a held frame, or a clamp: it goes to its place at once. */

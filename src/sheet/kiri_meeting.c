@@ -499,13 +499,10 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     if (!MeetsTriangle(x, point, &height, share)) {
         return false;
     }
-    kiriVec3 sum = { 0 }, at = kiriVec3_AddScaled(point->at, height, point->out);
+    kiriVec3 at = kiriVec3_AddScaled(point->at, height, point->out);
     kiriSurface_NeedNormals(surface);
-    KIRI_EACH_CORNER(k) {
-        sum = kiriVec3_AddScaled(sum, share[k], kiriVertex_SkinNormal(sheet, v[k]));
-    }
-    /* The interpolated surface normal, on the side of `out`. */
-    kiriVec3 normal = kiriVec3_Scale(kiriVec3_Dot(sum, point->out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
+    kiriVec3 normal = kiriTriangle_SkinNormal(sheet, triangle, share);
+    normal = kiriVec3_Scale(kiriVec3_Dot(normal, point->out) < 0.0 ? -1.0 : 1.0, normal); /* on the side of `out` */
     double above = height * kiriVec3_Dot(normal, point->out) - gap;
     return IsTangentTo(point, normal) &&
            TouchMixed(meeting, v, share, 3, at, normal, above, meeting->near - meeting->gap, point->at, gap, touch);

@@ -81,6 +81,16 @@ kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex)
                                           : VertexNormal(sheet, vertex);
 }
 
+kiriVec3 kiriTriangle_SkinNormal(const kiriSheetData* sheet, int32_t triangle, const double share[3])
+{
+    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, triangle);
+    kiriVec3 sum = { 0 };
+    KIRI_EACH_CORNER(k) {
+        sum = kiriVec3_AddScaled(sum, share[k], kiriVertex_SkinNormal(sheet, corners[k]));
+    }
+    return kiriVec3_Normalize(sum);
+}
+
 /* Falls back to the normal of the triangle if the corner normals cancel out, and to one corner if its area is zero. */
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {

@@ -23,8 +23,10 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
 /* Returns the offset of the detail layer at the point, m. */
 kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place);
 
-/* Returns the normal of the skin at a vertex, for contacts. Call kiriSurface_NeedNormals first. */
+/* Return the normal of the skin for contacts: at a vertex; and at a place of a triangle, continuous over edges, zero if
+   the normals of the corners cancel out. Call kiriSurface_NeedNormals first. */
 kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex);
+kiriVec3 kiriTriangle_SkinNormal(const kiriSheetData* sheet, int32_t triangle, const double share[3]);
 
 /* Returns x and velocity by linear blending of the current frames, without fades. The other fields are not set. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place);

@@ -94,7 +94,7 @@ static kiriPlace3 VertexPlace(kiriSheetData* sheet, int32_t vertex)
 static kiriPlace3 TrianglePlace(kiriSheetData* sheet, int32_t triangle, const double share[3])
 {
     kiriPlace3 place = { sheet, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { share[0], share[1], share[2] } };
-    memcpy(place.vertex, &sheet->seen.surface.indices.data[3 * (size_t)triangle], sizeof(place.vertex));
+    memcpy(place.vertex, kiriSurface_Triangle(&sheet->seen.surface, triangle), sizeof(place.vertex));
     return place;
 }
 
@@ -499,31 +499,19 @@ static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiri
     return 2.0 * KeptDistance(a, b) + dt * (speed + falling);
 }
 
-static bool Holds(const kiriBox* box, kiriVec3 x)
-{
-    return kiriBox_Meet(box, &(kiriBox){ x, x });
-}
-
 #define STEEP 0.5           /* minimum ratio of the offset along the surface to the offset across it, beside a border */
 #define FLAT_TRIANGLE 0.25  /* of the distance that pieces keep: maximum height of a probe beside a lip, */
 #define INSIDE_TRIANGLE 0.5 /* and maximum distance of its place from the border */
 
-/* A place on a triangle: inside (edge and corner KIRI_NONE), on edge 0 to 2, or at corner 0 to 2. */
+/* Barycentric coordinates of a place on a triangle. */
 typedef struct Place {
     double share[3];
-    int edge, corner;
 } Place;
 
-static Place AtCorner(int corner)
-{
-    Place place = { { 0.0, 0.0, 0.0 }, KIRI_NONE, corner };
-    place.share[corner] = 1.0;
-    return place;
-}
-
+/* Returns a place on edge 0 to 2, at part t of it. */
 static Place OnEdge(int edge, double t)
 {
-    Place place = { { 0.0, 0.0, 0.0 }, edge, KIRI_NONE };
+    Place place = { { 0.0 } };
     place.share[edge] = 1.0 - t;
     place.share[(edge + 1) % 3] = t;
     return place;
@@ -540,13 +528,13 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
     double d5 = kiriVec3_Dot(ab, cp), d6 = kiriVec3_Dot(ac, cp);
     double onA = d3 * d6 - d5 * d4, onB = d5 * d2 - d1 * d6, onC = d1 * d4 - d3 * d2;
     if (d1 <= 0.0 && d2 <= 0.0) {
-        return AtCorner(0);
+        return OnEdge(0, 0.0);
     }
     if (d3 >= 0.0 && d4 <= d3) {
-        return AtCorner(1);
+        return OnEdge(1, 0.0);
     }
     if (d6 >= 0.0 && d5 <= d6) {
-        return AtCorner(2);
+        return OnEdge(2, 0.0);
     }
     if (onC <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
         return OnEdge(0, d1 / (d1 - d3));
@@ -558,7 +546,7 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
         return OnEdge(1, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
     double sum = onA + onB + onC;
-    return (Place){ { onA / sum, onB / sum, onC / sum }, KIRI_NONE, KIRI_NONE };
+    return (Place){ { onA / sum, onB / sum, onC / sum } };
 }
 
 /* Returns the distance of the place from the border, m: from border edges of its triangle, and from corners at which
@@ -566,41 +554,42 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
 static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
 {
     const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
-    const kiriSurface* surface = &sheet->seen.surface;
     double least = HUGE_VAL;
+    kiriVec3 x[3];
+    kiriSurface_Corners(&sheet->seen.surface, near->triangle, x);
     KIRI_TIMES(k, 3) {
-        kiriVec3 from = kiriSurface_At(surface, t->vertex[k]), to = kiriSurface_At(surface, t->vertex[(k + 1) % 3]);
-        kiriVec3 apex = kiriSurface_At(surface, t->vertex[(k + 2) % 3]), edge = kiriVec3_Sub(to, from);
-        double area = kiriVec3_Length(kiriVec3_Cross(edge, kiriVec3_Sub(apex, from)));
+        kiriVec3 edge = kiriVec3_Sub(x[(k + 1) % 3], x[k]), to = kiriVec3_Sub(x[(k + 2) % 3], x[k]);
+        double area = kiriVec3_Length(kiriVec3_Cross(edge, to));
         double way = near->share[(k + 2) % 3] * area / kiriVec3_Length(edge);
         bool isBorder = t->twin[k] == KIRI_NONE || (t->marks >> k & 1) != 0;
         least = isBorder && way < least ? way : least;
-        kiriVec3 in = kiriVec3_AddScaled(kiriVec3_Scale(near->share[(k + 1) % 3], edge), near->share[(k + 2) % 3],
-                                         kiriVec3_Sub(apex, from));
+        kiriVec3 in = kiriVec3_AddScaled(kiriVec3_Scale(near->share[(k + 1) % 3], edge), near->share[(k + 2) % 3], to);
         double off = kiriVec3_Length(in);
         least = sheet->probes.isBorder.data[t->vertex[k]] && off < least ? off : least;
     }
     return least;
 }
 
-/* Sets the nearest place on one triangle. Returns the square of its distance, m^2. */
-static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
+/* Sets the nearest place on one triangle, if it lies within `most`. Returns the square of its distance, m^2. Between
+   pieces the normal is continuous over edges, where rounding chooses the triangle. In folds that would add energy. */
+static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, double most)
 {
     const kiriSheetData* sheet = bodies[near->other].sheet;
     const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
-    kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
-    kiriVec3 c = kiriSurface_At(surface, corners[2]);
-    kiriVec3 p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    Place place = NearestOnTriangle(p, a, b, c);
-    kiriVec3 q = kiriVec3_Scale(place.share[0], a);
-    q = kiriVec3_AddScaled(kiriVec3_AddScaled(q, place.share[1], b), place.share[2], c);
-    kiriVec3 off = kiriVec3_Sub(p, q);
-    near->triangle = triangle;
-    memcpy(near->share, place.share, sizeof(near->share));
-    near->normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
-    near->height = kiriVec3_Dot(near->normal, off);
-    return kiriVec3_Dot(off, off);
+    kiriVec3 x[3], p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
+    kiriSurface_Corners(surface, triangle, x);
+    Place place = NearestOnTriangle(p, x[0], x[1], x[2]);
+    kiriVec3 off = kiriVec3_Sub(p, kiriSurface_Blend(surface, kiriSurface_Triangle(surface, triangle), place.share));
+    double squared = kiriVec3_Dot(off, off);
+    if (squared <= most) {
+        near->triangle = triangle;
+        memcpy(near->share, place.share, sizeof(near->share));
+        near->normal = near->body != near->other
+                           ? kiriTriangle_SkinNormal(sheet, triangle, near->share)
+                           : kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
+        near->height = kiriVec3_Dot(near->normal, off);
+    }
+    return squared;
 }
 
 /* Returns true if the probe lies beside the other body, not on it. Lips of a fresh cut lie in one plane, and may
@@ -625,7 +614,7 @@ static double LookAtTriangle(void* context, int32_t triangle)
 {
     Looking* looking = context;
     kiriNear one = *looking->near;
-    double squared = Measure(&one, looking->bodies, triangle);
+    double squared = Measure(&one, looking->bodies, triangle, looking->least);
     bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
     if (squared < looking->least || isLower) {
         looking->least = squared;
@@ -667,7 +656,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         kiriNear near = { .body = body, .other = other, .vertex = probes.data[i], .triangle = KIRI_NONE };
         Looking looking = { &near, bodies, reach * reach, false };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
-        if (Holds(&box, x) && (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex))) {
+        if (kiriBox_Meet(&box, &(kiriBox){ x, x }) && (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex))) {
             kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, looking.least, LookAtTriangle,
                                &looking);
             ok = !looking.found || IsBeside(&near, bodies, KeptDistance(a, b), looking.least) ||
@@ -794,6 +783,8 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
         (one->sheet->settings.groups & other->sheet->settings.groups) == 0) {
         return true;
     }
+    kiriSurface_NeedNormals(&one->sheet->seen.surface);
+    kiriSurface_NeedNormals(&other->sheet->seen.surface);
     if (!UpdateBounds(one->sheet) || !UpdateBounds(other->sheet) || !FindNears(world, a, b, reach) ||
         !FindNears(world, b, a, reach)) {
         return false;
@@ -802,8 +793,6 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
     if (nears.count == 0) {
         return true;
     }
-    kiriSurface_NeedNormals(&one->sheet->seen.surface);
-    kiriSurface_NeedNormals(&other->sheet->seen.surface);
     return kiriArray_Push(&world->memory, &pairs->found, Decide(world, a, b, nears, dt));
 }
 
@@ -865,7 +854,7 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
 {
     const kiriSkin* skin = &sheet->vertexSkin;
     const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* corners = &surface->indices.data[3 * (size_t)near->triangle];
+    const int32_t* corners = kiriSurface_Triangle(surface, near->triangle);
     kiriSpan own = skin->spans.data[near->vertex];
     kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
     double shared = 0.0;
@@ -907,7 +896,8 @@ static double LookAtLayer(void* context, int32_t triangle)
 {
     FoldSearch* search = context;
     kiriNear one = search->found[0];
-    double squared = Measure(&one, search->body, triangle), across = one.height * one.height;
+    double squared = Measure(&one, search->body, triangle, kiriMax(search->least[0], search->least[1]));
+    double across = one.height * one.height;
     int side = one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0 ? 0 : 1;
     bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
     if (squared < search->least[side] || isFirst) {
@@ -926,10 +916,10 @@ static double LookAtLayer(void* context, int32_t triangle)
 static void MarkFold(kiriSheetData* sheet, const kiriNear* near)
 {
     KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
-    const int32_t* corners = &sheet->seen.surface.indices.data[3 * (size_t)near->triangle];
+    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, near->triangle);
     sheet->probes.marks.data[near->vertex] |= KIRI_FOLD_NEAR;
     KIRI_TIMES(k, 3) {
-        sheet->probes.marks.data[corners[k]] |= KIRI_FOLD_NEAR;
+        sheet->probes.marks.data[corners[k]] |= near->share[k] > 0.0 ? KIRI_FOLD_NEAR : 0;
     }
 }
 
@@ -1013,7 +1003,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     FoldSearch* search = context;
     kiriSheetData* sheet = search->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* c = &surface->indices.data[3 * (size_t)triangle];
+    const int32_t* c = kiriSurface_Triangle(surface, triangle);
     kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
     kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
     bool areApart = true;
