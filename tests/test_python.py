@@ -554,15 +554,20 @@ def test_python_finds_mistakes():
 
 def test_annotations():
     """Each public function has a docstring without pointers; generated ones have types that can be read."""
+    from kiri import _fields
     for of in (kiri.World, kiri.Sheet, kiri.Cut, kiri.Frame, kiri.Pin, kiri.Obstacle, kiri.Blade, kiri.Seam):
         for name, function in vars(of).items():
             if name[0] != "_" and callable(function):
                 assert function.__doc__, f"{of.__name__}.{name} has no docstring"
         for name, function in vars(of.__mro__[-2] if of is kiri.World else of.__mro__[2]).items():
             if name[0] != "_" and callable(function) and function.__module__ == "kiri._methods":
-                hints = typing.get_type_hints(function, {**vars(kiri._methods), "kiri": kiri})
+                hints = typing.get_type_hints(function, {**vars(kiri._methods), **vars(_fields), "kiri": kiri, "Unpack": typing.Type})
                 assert "return" in hints and len(hints) > function.__code__.co_argcount - 1, f"{of.__name__}.{name}"
                 assert not re.search(r"[*]\w|->|[Nn]ull\b", function.__doc__), f"{of.__name__}.{name}: {function.__doc__}"
+    for kind in (_fields.SheetDef, _fields.PinDef, _fields.ObstacleDef, _fields.WorldDef, _fields.SheetSettings, _fields.Wind):
+        fields = dict(kiri.ffi.typeof(f"kiri{kind.__name__}").fields)
+        assert set(kind.__annotations__) == set(fields) - {"cookie", "type", "restPoint", "target"}  # these are arguments
+    assert "Unpack[SheetDef]" in str(kiri.World.create_rectangle.__annotations__["fields"])
     assert (pathlib.Path(kiri.__file__).parent / "py.typed").exists()
     assert not {"Record", "Numbers", "enum", "annotations"} & set(vars(kiri))
 

@@ -204,7 +204,7 @@ class Method:
             raise SyntaxError(f"{self._function['name']}: {form}")
 
     def _structure(self, parameter):
-        self._keywords.append("**fields: Any")
+        self._keywords.append(f"**fields: {'Any' if parameter['type'] == 'kiriFold' else 'Unpack[' + parameter['type'][4:] + ']'}")
         self._before += ["kept = []  # until C has read it",
                          f"structure = core.structure({self._world}, '{parameter['type']}', fields, kept)"]
         self._passed.append("structure")
@@ -306,13 +306,26 @@ class Method:
         return made + [called, "return core.record(structure[0])"]
 
 
+def keywords(description):
+    """Of the structs that are given by the names of their fields."""
+    text = '"""Made from kiri.h by `make bindings`: keywords of defs, for editors and type checkers."""\n\n'
+    text += "from typing import Any, TypedDict\n"
+    for struct in description["structs"]:
+        if "default" in struct or struct["name"][4:] in ("Budget", "SheetSettings", "Tearing", "Wind"):
+            text += f"\n\nclass {struct['name'][4:]}(TypedDict, total=False):\n"
+            for field in struct["fields"]:
+                kind = hint_of(field["type"], []) if field["form"] == "number" and "count" not in field else "Any"
+                text += f"    {field['name']}: {kind}\n" if field["name"] not in ("cookie", "type", "restPoint", "target") else ""
+    return text
+
+
 def methods(description):
     text = '"""Made from kiri.h by `make bindings`: the functions of C as methods of what they are about."""\n\n'
     text += "from __future__ import annotations\n\n"
     text += "from types import SimpleNamespace as Record\n"
     text += "from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Tuple\n\n"
     text += "from . import _core as core\nfrom ._core import Numbers\n\n"
-    text += "if TYPE_CHECKING:\n    import kiri\n"
+    text += "if TYPE_CHECKING:\n    import kiri\n    from typing_extensions import Unpack\n    from ._fields import *\n"
     plain = [name_of(one) for one in description["functions"] if not one["class"] and one["name"] not in BY_HAND]
     text += f"\n__all__ = {pprint.pformat(plain, width=116, compact=True)}\n"
     for of in (None, *naming.classes(description)):
@@ -329,4 +342,5 @@ def methods(description):
 
 def files(description):
     return {"bindings/python/kiri/_declarations.py": declarations(description),
-            "bindings/python/kiri/_enums.py": enums(description), "bindings/python/kiri/_methods.py": methods(description)}
+            "bindings/python/kiri/_enums.py": enums(description), "bindings/python/kiri/_methods.py": methods(description),
+            "bindings/python/kiri/_fields.py": keywords(description)}

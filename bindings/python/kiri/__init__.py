@@ -23,13 +23,17 @@ The library is the argument of World, $KIRI_LIBRARY, the one beside this file, o
 """
 
 import types
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple
 
 from . import _core, _methods
 from ._core import Handle, KiriError, Loan, ffi, load
 from ._core import KIRI_VERSION, KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH
 from ._enums import *  # EventType.PIECE_OFF, which is KIRI_EVENT_PIECE_OFF, and so on
 from ._methods import *
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from . import _fields
 
 __version__ = _core.VERSION
 
@@ -113,7 +117,7 @@ class World(_core.World, _methods.World):
         self.call("kiriWorld_Raycast", _core.vector(origin, 3), _core.vector(direction, 3), max_distance, sheet, hit)
         return (Sheet(self, sheet[0]), _core.record(hit[0])) if sheet[0] else None
 
-    def debug_draw(self, **fields):
+    def debug_draw(self, **fields: "Unpack[_fields.DebugDraw]") -> types.SimpleNamespace:
         """What kiriWorld_DebugDraw draws, with fields of kiriDebugDraw by name: points, lines and triangles, each as bytes of
         kiriDrawVertex: three floats and a colour. Functions of the caller's get batches of their own."""
         drawn = types.SimpleNamespace(points=bytearray(), lines=bytearray(), triangles=bytearray())
@@ -125,7 +129,7 @@ class World(_core.World, _methods.World):
         self.call("kiriWorld_DebugDraw", _core.definition(self, "kiriDebugDraw", fields, kept))
         return drawn
 
-    def create_sheet(self, positions: _core.Numbers, triangles: _core.Numbers, **fields: Any) -> "Sheet":
+    def create_sheet(self, positions: _core.Numbers, triangles: _core.Numbers, **fields: "Unpack[_fields.SheetDef]") -> "Sheet":
         """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
         dicts."""
         positions, vertex_count = _core.rows("float", positions, 2)
@@ -133,7 +137,7 @@ class World(_core.World, _methods.World):
         return Sheet(self, self.create("Sheet", restPositions=positions, vertexCount=vertex_count, indices=triangles,
                                        triangleCount=triangle_count, **fields))
 
-    def create_obstacle(self, type: int, **fields: Any) -> "Obstacle":
+    def create_obstacle(self, type: int, **fields: "Unpack[_fields.ObstacleDef]") -> "Obstacle":
         """KIRI_OBSTACLE_..., and other fields of kiriObstacleDef by name."""
         if "outline" in fields:
             fields["outline"], fields["outlineCount"] = _core.rows("float", fields["outline"], 2)
@@ -141,7 +145,7 @@ class World(_core.World, _methods.World):
 
 
 class Sheet(Handle, _methods.Sheet):
-    def set_settings(self, **fields: Any) -> None:
+    def set_settings(self, **fields: "Unpack[_fields.SheetSettings]") -> None:
         """Fields of kiriSheetSettings by name, material as a dict; others stay."""
         settings, kept = ffi.new("kiriSheetSettings*"), []
         self.world.call("kiriSheet_GetSettings", self.id, settings)
@@ -160,7 +164,7 @@ class Sheet(Handle, _methods.Sheet):
                                            _core.vector(rest_point, 2), null=(ffi.NULL,))
         return {Frame(self.world, frame): weight for frame, weight in zip(frames, weights)}
 
-    def create_pin(self, rest_point, target, **fields) -> "Pin":
+    def create_pin(self, rest_point: _core.Numbers, target: _core.Numbers, **fields: "Unpack[_fields.PinDef]") -> "Pin":
         """Holds a point of the material at a place of the world; other fields of kiriPinDef by name."""
         return Pin(self.world, self.world.create("Pin", self.id, restPoint=rest_point, target=target, **fields))
 

@@ -23,6 +23,10 @@ except ImportError:
 from . import _enums
 from ._declarations import ARRAYS, CDEF, CHANGES, CONSTANTS, ENUMS, IDS, METHODS, VERSION
 
+if typing.TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from . import _fields
+
 Numbers = typing.Any  # numbers, flat or in rows: a list, a tuple, an array of numpy, any buffer
 
 KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH = map(int, VERSION.split("."))
@@ -324,7 +328,7 @@ class World:
 
     _world = ffi.NULL
 
-    def __init__(self, library=None, executor=None, **fields):
+    def __init__(self, library=None, executor=None, **fields: "Unpack[_fields.WorldDef]"):
         if self._world != ffi.NULL:
             raise TypeError("the world is there already")
         self._turns = _Turns()

@@ -10,6 +10,8 @@ from ._core import Numbers
 
 if TYPE_CHECKING:
     import kiri
+    from typing_extensions import Unpack
+    from ._fields import *
 
 __all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality', 'setup',
  'default_sheet_def', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
@@ -125,7 +127,7 @@ class World:
         """Sets gravity (m/s^2) from the next tick on. All pieces wake."""
         return self.call('kiriWorld_SetGravity', core.vector(gravity, 3))
 
-    def set_budget(self, **fields: Any) -> int:
+    def set_budget(self, **fields: Unpack[Budget]) -> int:
         """Sets the budget from the next tick on: fields of kiriBudget by name."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriBudget', fields, kept)
@@ -159,7 +161,7 @@ class World:
         """Returns the profile of the last tick that was not refused."""
         return core.record(self.get('kiriWorld_GetProfile', 'kiriProfile'), self)
 
-    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Any) -> kiri.Sheet:
+    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Unpack[SheetDef]) -> kiri.Sheet:
         """Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
         columns and rows are 1 to 4096. def: its mesh is not read; None: the defaults. A recording stores it as
         kiriCreateSheet.
@@ -168,7 +170,7 @@ class World:
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
-    def create_folded_sheet(self, folds: Numbers, **fields: Any) -> kiri.Sheet:
+    def create_folded_sheet(self, folds: Numbers, **fields: Unpack[SheetDef]) -> kiri.Sheet:
         """Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
@@ -189,7 +191,7 @@ class World:
         """
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
 
-    def create_seam(self, **fields: Any) -> kiri.Seam:
+    def create_seam(self, **fields: Unpack[SeamDef]) -> kiri.Seam:
         """Fill the def with its defaults; create and destroy a seam; set stiffness and restAngle. KIRI_ERROR_ARGUMENT:
         a line is empty or leaves the material; a sheet is planar; models differ (manual, sewing).
         """
@@ -359,7 +361,7 @@ class Sheet:
         """
         return self.world.thing('Cut', self.world.get('kiriSheet_Slice', 'kiriCut', self.id, core.vector(blade, 12)))
 
-    def set_tearing(self, **fields: Any) -> int:
+    def set_tearing(self, **fields: Unpack[Tearing]) -> int:
         """Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
         KIRI_MODEL_LINKS.
         """
@@ -406,7 +408,7 @@ class Sheet:
         """
         return self.world.call('kiriSheet_ApplyImpulse', self.id, core.vector(rest_point, 2), core.vector(impulse, 3))
 
-    def set_wind(self, **fields: Any) -> int:
+    def set_wind(self, **fields: Unpack[Wind]) -> int:
         """Copies the wind; it blows until the next call."""
         kept = []  # until C has read it
         structure = core.structure(self.world, 'kiriWind', fields, kept)
