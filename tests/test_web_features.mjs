@@ -178,6 +178,34 @@ async function grabHolds(tab) {
     assert.equal((await counts(tab)).pieces, 1);
 }
 
+/** A finger that takes the border near a corner makes a notch there, and pulls a strip off. Rubber does not tear. */
+async function fingerTears(tab) {
+    await press(tab, "Paper");
+    await press(tab, "Tear");
+    await tab.evaluate(() => { // the same tear on a busy machine
+        const { game } = globalThis;
+        game.simulation.world.setBudget({});
+        game.simulation.measure = () => {};
+        game.most = Infinity;
+    });
+    const [x, y] = await seen(tab, 0.27, 0.05);
+    await tab.mouse.move(x, y);
+    await tab.mouse.down();
+    await frame(tab, 2);
+    const { vertices } = await counts(tab);
+    for (let i = 1; i <= 40; i++) {
+        await tab.mouse.move(x - 5 * i, y + 2 * i);
+        await frame(tab, 2);
+    }
+    const torn = (await counts(tab)).vertices - vertices;
+    await picture(tab, "9_tear");
+    await tab.mouse.up();
+    assert.ok(torn > 30, `the notch goes on: ${torn} vertices of lips`);
+    await press(tab, "Rubber");
+    await drag(tab, [await seen(tab, 0.27, 0.05), await seen(tab, 0.2, 0.05)]);
+    assert.match(await hint(tab), /does not tear/);
+}
+
 /** While the knife is down ticks are an eighth as long, two a frame, and the cut is there in the frame of the finger's move. */
 async function knifeIsSlow(tab) {
     await press(tab, "New sheet");
@@ -385,7 +413,7 @@ async function fingers(tab) {
 try {
     const tab = await browser.open("?still&free", { viewport: { width: 1000, height: 640 } }, listen);
     await frame(tab, 20);
-    for (const test of [cutsSvg, cutsFold, cutsStyles, refusesOthers, scissorsSnip, grabHolds, knifeIsSlow, foldedPaper, knifeSounds, sliderTells,
+    for (const test of [cutsSvg, cutsFold, cutsStyles, refusesOthers, scissorsSnip, grabHolds, fingerTears, knifeIsSlow, foldedPaper, knifeSounds, sliderTells,
                         sliderFolds, wheelZooms, linkPlays]) {
         await test(tab);
         console.log(`web: ${test.name}`);

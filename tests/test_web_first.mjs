@@ -21,6 +21,14 @@ const draw = (tab) => tab.evaluate(() => {
     } while (globalThis.game.later.length);
 });
 
+/** The same on a busy machine: no budget follows the clock. */
+const ignoreClock = (tab) => tab.evaluate(() => {
+    const { game } = globalThis;
+    game.simulation.world.setBudget({});
+    game.simulation.measure = () => {};
+    game.most = Infinity;
+});
+
 /** Where a rest position is in the window. */
 const seen = (tab, [u, v]) => tab.evaluate(([u, v]) => {
     const { simulation, stage } = globalThis.game;
@@ -60,6 +68,7 @@ const changes = (tab, places) => tab.evaluate((places) => {
 async function strokeIsSeen(name, pixels) {
     const tab = await browser.open("?still&free", { viewport: { width: 700, height: 500 }, deviceScaleFactor: pixels });
     await tab.evaluate((sheet) => globalThis.game.restart({ sheet, hangs: "rod" }), name);
+    await ignoreClock(tab);
     await step(tab, 40);
     await draw(tab);
     const way = Array.from({ length: 21 }, (_, i) => [0.06 + 0.18 * i / 20, 0.14 + 0.05 * Math.sin(i * 0.4)]);
@@ -87,12 +96,11 @@ async function paceIsEven(tab) {
     const hashes = new Set();
     for (const rate of [30, 60, 144]) {
         await tab.evaluate(() => globalThis.game.playFreely());
+        await ignoreClock(tab);
         const told = await tab.evaluate(async (rate) => {
             const { game } = globalThis, { world } = game.simulation, tick = world.tick.bind(world);
             let time = 0, ticks = 0;
             world.tick = (dt, substeps) => { time += dt; ticks++; return tick(dt, substeps); };
-            // Without budgets, which follow the clock.
-            game.simulation.measure = () => {};
             for (let i = 0; i < rate; i++) {
                 game.step(1 / rate);
             }
@@ -112,6 +120,19 @@ async function paceIsEven(tab) {
         hashes.add(second.hash);
     }
     assert.equal(hashes.size, 1, "the same motion at each rate");
+}
+
+/** A frame whose first tick takes all that a frame has begins no other one: time goes slower. */
+async function framesAreBounded(tab) {
+    const ticks = await tab.evaluate(() => {
+        const { game } = globalThis, before = game.simulation.ticks;
+        game.most = 0;
+        for (let i = 0; i < 30; i++) {
+            game.step(1 / 30);
+        }
+        return game.simulation.ticks - before;
+    });
+    assert.equal(ticks, 30);
 }
 
 /** Follows the line, not exactly. back: begins at its end. */
@@ -139,11 +160,7 @@ async function follow(tab, { back = false, lift = false } = {}) {
 async function taskEnds(tab, name) {
     const text = () => tab.evaluate(() => document.getElementById("task").innerText);
     assert.match(await text(), /Cut along the line/);
-    await tab.evaluate(() => { // the same pieces on a busy machine
-        const { simulation } = globalThis.game;
-        simulation.world.setBudget({});
-        simulation.measure = () => {};
-    });
+    await ignoreClock(tab);
     await step(tab, 20);
     await draw(tab);
     await browser.picture(tab, `${name}_0`);
@@ -186,6 +203,8 @@ try {
     const tab = await browser.open("?still", { viewport: { width: 1000, height: 640 } });
     await taskEnds(tab, "11_task");
     await paceIsEven(tab);
+    await tab.evaluate(() => globalThis.game.playFreely());
+    await framesAreBounded(tab);
     await tab.close();
     const phone = await browser.open("?still", { viewport: { width: 390, height: 780 }, isMobile: true, deviceScaleFactor: 2 });
     await taskEnds(phone, "12_phone");

@@ -48,11 +48,12 @@ function makeLight(scene) {
     sun.position.set(0.5, 1.8, 0.65);
     sun.intensity = 0.6;
     sun.autoUpdateExtends = false;
-    Object.assign(sun, { orthoLeft: -0.7, orthoRight: 0.7, orthoBottom: -0.7, orthoTop: 0.7, shadowMinZ: 0.2, shadowMaxZ: 3 });
-    const shadows = new ShadowGenerator(1024, sun);
+    Object.assign(sun, { orthoLeft: -0.55, orthoRight: 0.55, orthoBottom: -0.55, orthoTop: 0.55, shadowMinZ: 0.2, shadowMaxZ: 3 });
+    const shadows = new ShadowGenerator(2048, sun);
     shadows.usePercentageCloserFiltering = true;
-    shadows.bias = 0.004;
-    shadows.normalBias = 0.01;
+    shadows.bias = 0.0015;
+    shadows.normalBias = 0.004;
+    shadows.forceBackFacesOnly = true; // the far sides of cloth and ball: near ones throw no stripes on themselves
     return shadows;
 }
 

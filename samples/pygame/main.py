@@ -81,21 +81,37 @@ def spot(camera, x, y, z):
     return tuple(SCALE * part for part in camera.pixel(x, y, z))
 
 
-def triangles_of(sheet, camera, look):
-    """Depth, colour and corners of each triangle, and corners of its shadow; the library's arrays are read without a
-    copy. `look` keeps colours of vertices, which only cuts add to."""
+def order_in(points, camera):
+    """By what triangles of a piece are sorted, so that near ones cover far ones: the axis along which the piece is flattest,
+    towards the eye. So the layers of a heap on the floor are drawn from below to above, those of a curtain from behind."""
+    spans = [max(part) - min(part) for part in zip(*points)]
+    middle = [sum(part) / len(points) for part in zip(*points)]
+    axis = spans.index(min(spans))
+    sign = 1 if (0.0, camera.eye, camera.height)[axis] > middle[axis] else -1
+    return middle[1], lambda corners: sign * sum(corner[axis] for corner in corners)
+
+
+def pieces_of(sheet, camera, look):
+    """Of each piece: how far it is, and colour, corners and corners of the shadow of each triangle; the library's arrays are
+    read without a copy. `look` keeps what only cuts change."""
+    count = sheet.counts().pieces
     with sheet.mesh_view() as mesh:
-        positions, normals = mesh.positions.tolist(), mesh.normals.tolist()
-        if look.get("revision") != mesh.revision:
-            look.update(revision=mesh.revision, rest=mesh.restPositions.tolist(), indices=mesh.indices.tolist())
+        positions, normals, version = mesh.positions.tolist(), mesh.normals.tolist(), (mesh.revision, count)
+        is_new = look.get("version") != version
+        if is_new:
+            look.update(version=version, rest=mesh.restPositions.tolist())
+    if is_new:
+        look["pieces"] = [[tuple(triangle) for triangle in sheet.piece_mesh(i, "indices").indices] for i in range(count)]
     pixels = [spot(camera, *position) for position in positions]
     shadows = [spot(camera, x + 0.35 * z, y + 0.55 * z, 0.0) for x, y, z in positions]
-    for a, b, c in look["indices"]:
-        if a != b:
+    for indices in look["pieces"]:
+        away, order = order_in([positions[i] for triangle in indices for i in triangle], camera)
+        drawn = []
+        for a, b, c in sorted(indices, key=lambda triangle: order([positions[i] for i in triangle])):
             rest = [(look["rest"][a][i] + look["rest"][b][i] + look["rest"][c][i]) / 3 for i in (0, 1)]
             normal = [(p + q + r) / 3 for p, q, r in zip(normals[a], normals[b], normals[c])]
-            yield (positions[a][1] + positions[b][1] + positions[c][1], color_of(rest, normal),
-                   (pixels[a], pixels[b], pixels[c]), (shadows[a], shadows[b], shadows[c]))
+            drawn.append((color_of(rest, normal), (pixels[a], pixels[b], pixels[c]), (shadows[a], shadows[b], shadows[c])))
+        yield away, drawn
 
 
 def draw_ball(canvas, camera, radius, position):
@@ -123,18 +139,18 @@ def draw(screen, curtain, camera, looks, font):
         looks.update(canvas=pygame.Surface((SCALE * WIDTH, SCALE * HEIGHT)), ground=make_ground(camera))
     canvas = looks["canvas"]
     canvas.blit(looks["ground"], (0, 0))
-    drawn = [triangle for sheet in curtain.sheets for triangle in triangles_of(sheet, camera, looks.setdefault(sheet.id, {}))]
-    drawn.sort(key=lambda triangle: -triangle[0])
+    pieces = [piece for sheet in curtain.sheets for piece in pieces_of(sheet, camera, looks.setdefault(sheet.id, {}))]
+    pieces.sort(key=lambda piece: -piece[0])
+    drawn = [triangle for _, triangles in pieces for triangle in triangles]
     shadow = tuple(int(0.66 * part) for part in FLOOR)
-    for _, _, _, corners in drawn:
+    for _, _, corners in drawn:
         pygame.draw.polygon(canvas, shadow, corners)
     draw_ball(canvas, camera, 0.21, (0.15, 0.24, 0.45))
-    for _, color, corners, _ in drawn:
+    for color, corners, _ in drawn:
         pygame.draw.polygon(canvas, color, corners)
     pygame.draw.line(canvas, INK, spot(camera, -0.8, 0, 1.18), spot(camera, 0.8, 0, 1.18), 6 * SCALE)
     pygame.transform.smoothscale(canvas, (WIDTH, HEIGHT), screen)
-    pieces = sum(sheet.counts().pieces for sheet in curtain.sheets)
-    screen.blit(font.render(f"drag to cut   R: a new curtain   cuts {curtain.cuts}   pieces {pieces}", True, INK), (16, 12))
+    screen.blit(font.render(f"drag to cut   R: a new curtain   cuts {curtain.cuts}   pieces {len(pieces)}", True, INK), (16, 12))
 
 
 # ---- The mouse, or a script ------------------------------------------------------------------------------------------

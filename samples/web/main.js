@@ -17,7 +17,7 @@ import { Task } from "./task.js";
 import { Grab, Knife, Scissors, Snowflake, Tear } from "./tools.js";
 
 const UNDOS = 24;
-const MOST_TICK = 8, SLOW_TICKS = 20; // ms; ticks in turn that take longer: then the quality goes down
+const MOST_TICK = 8, SLOW_TICKS = 20; // ms of a tick, and of all of a frame; ticks in turn that take longer: then the quality goes down
 const MOST_BEHIND = 2 * TICK; // s: a device that is slower than this shows slow motion
 const text = new TextEncoder();
 
@@ -26,6 +26,7 @@ class Game {
     sound = new Sound();
     undos = [];
     tools = { knife: Knife, scissors: Scissors, grab: Grab, tear: Tear };
+    most = MOST_TICK; // ms of ticks in a frame
     behind = 0; // s that the world is behind the clock
     smooth = false; // pictures come more often than ticks: they show what is between two
     task = null;
@@ -75,8 +76,8 @@ class Game {
     }
 
     options() {
-        const { quality, hangs, sheet } = this.choice;
-        return { material: this.materials[sheet], quality, hangs };
+        const { quality, hangs, sheet, tool } = this.choice;
+        return { material: this.materials[sheet], quality, hangs, tears: tool === "tear" && hangs === "rod" };
     }
 
     open(simulation) {
@@ -177,6 +178,15 @@ class Game {
         this.cut(lantern(SIZE));
     }
 
+    /** To tear takes a sheet with more frames. */
+    choose(tool) {
+        this.choice.tool = tool;
+        if (tool === "tear" && !this.simulation.options.tears && !this.isReplaying) {
+            this.restart({ sheet: this.choice.sheet === "washi" ? "paper" : this.choice.sheet, hangs: "rod", folded: false });
+            this.panel.say("Take the border, and pull");
+        }
+    }
+
     /** A sheet of card, which the slider folds. */
     showMiura() {
         this.restart({ sheet: "paper", tool: "knife", hangs: "middle", folded: false },
@@ -254,10 +264,12 @@ class Game {
             this.hand.letGo();
         }
         this.sound.cut(this.hand.tool && !this.grabs && this.choice.tool !== "scissors" ? pixels : 0);
-        // Ticks are as long at each rate of pictures. One that comes a little late is not waited for.
+        // Ticks are as long at each rate of pictures. One that comes a little late is not waited for. None begins where those of
+        // this frame took all that a frame has for them: time goes slower then.
         const { simulation } = this, { period } = simulation;
         this.behind = Math.min(this.behind + seconds, MOST_BEHIND);
-        for (; this.behind >= 0.9 * period; this.behind -= period) {
+        const last = start + this.most;
+        for (let ticks = 0; this.behind >= 0.9 * period && (ticks === 0 || performance.now() < last); ticks++, this.behind -= period) {
             if (this.isReplaying) {
                 this.playTick();
             } else {

@@ -41,7 +41,7 @@ export class Panel {
         this.game = game;
         const at = (id) => document.getElementById(id);
         this.pressTool = choice(at("tools"), { knife: "Knife", scissors: "Scissors", grab: "Grab", tear: "Tear" }, game.choice.tool,
-            (name) => { game.choice.tool = name; });
+            (name) => game.choose(name));
         this.pressSheet = choice(at("sheets"), { paper: "Paper", cloth: "Cloth", foil: "Foil", rubber: "Rubber" }, game.choice.sheet,
             (name) => game.restart({ sheet: name, hangs: "rod", folded: false }));
         at("main").append(button("Undo", () => game.undo(), "undo"),

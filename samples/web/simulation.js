@@ -15,11 +15,12 @@ const GUST = [0.3, 0, -1]; // m/s, for a moment after a cut: it opens lips and f
 const GUST_TICKS = 20;
 const FOLDED = 1.1; // rad, of driven folds
 const FOLDING = 1 / 150; // part of the way in a tick
+const TEARING = { frameCount: 64, iterations: 4 }; // a tear goes from frame to frame
 const CRUMB = 2e-6; // m^2
 const CUTS = 3000, MOTION = 5000; // us of a tick that the budget allows
 const MEASURED = 30; // ticks between two budgets
 /** Until it was measured: items of a slow phone. */
-const BUDGET = { triangles: 1500, cells: 20000, samples: 3000 };
+const BUDGET = { triangles: 500, cells: 4000, samples: 600 };
 
 /** Bits of the sides of the sheet that a rest position is on; of a disc there is one. */
 export function borderOf(u, v, round) {
@@ -29,7 +30,7 @@ export function borderOf(u, v, round) {
 }
 
 export class Simulation {
-    /** options: material (of materials.js), quality (0, 1, 2), hangs ("rod", "tip", "middle"), def and mesh (where it is
+    /** options: material (of materials.js), quality (0, 1, 2), hangs ("rod", "tip", "middle"), tears, def and mesh (where it is
      *  no square), origami (of patterns.js). record: gets bytes of the recording. */
     constructor(options, record) {
         this.options = options;
@@ -74,7 +75,7 @@ export class Simulation {
             material, skinning: Skinning.Smooth, touchesSheets: 1, friction: 0.7, contactThickness: 1.2e-3,
             gridResolution: this.quality.gridResolution,
             iterations: Math.max(this.quality.iterations, iterations ?? 0),
-            frameCount: along * along, crumbArea: 4e-5, ...(model === undefined ? {} : { model }), ...this.options.def,
+            frameCount: along * along, crumbArea: 4e-5, ...(model === undefined ? {} : { model }), ...(this.options.tears ? TEARING : {}), ...this.options.def,
         };
     }
 
@@ -135,7 +136,9 @@ export class Simulation {
         if (++this.ticks % MEASURED === 0) {
             const budget = { ...BUDGET };
             fitBudget(this.cuts, CUTS, budget);
-            fitBudget(this.motion, MOTION, budget);
+            if (!this.options.tears) { // a step that ends early holds the sheet still
+                fitBudget(this.motion, MOTION, budget);
+            }
             this.world.setBudget(budget);
         }
     }

@@ -5,7 +5,7 @@ import { SIZE } from "./simulation.js";
 const DEPTH = 0.1; // m: how far behind the sheet a blade reaches
 const SNIP = 0.011; // m: of scissors
 const PULL = 300; // N/m: of a hand that tears
-const NOTCH = { near: 0.06, beside: 0.02, long: 0.02 }; // m from the border to the finger, from the finger to the notch; its length
+const NOTCH = { near: 0.09, beside: 0.025, long: 0.045 }; // m from the border to the finger, from the finger to the notch; its length
 
 const add = (a, b, by) => [a[0] + b[0] * by, a[1] + b[1] * by, a[2] + b[2] * by];
 
@@ -80,8 +80,12 @@ export class Grab {
 export class Tear extends Grab {
     begin(ray, hit) {
         const { sheet, options } = this.game.simulation;
-        sheet.setTearing({ toughness: options.material.toughness });
-        this.notch(sheet, hit.restPoint);
+        if (options.material.toughness) {
+            sheet.setTearing({ toughness: options.material.toughness });
+            this.notch(sheet, hit.restPoint);
+        } else {
+            this.game.panel.say("This sheet does not tear: cut it");
+        }
         super.begin(ray, hit);
     }
 
@@ -91,24 +95,21 @@ export class Tear extends Grab {
 
     /** From the nearest border but the upper one, above the finger or towards the middle. */
     notch(sheet, [u, v]) {
-        const beside = NOTCH.beside, aside = Math.min(u, SIZE - u), inward = Math.sign(SIZE / 2 - u) || 1;
-        if (aside < v && aside < NOTCH.near && v + beside < SIZE) {
-            const border = inward > 0 ? 0 : SIZE;
-            this.cut(sheet, [border - 0.002 * inward, v + beside], [border + NOTCH.long * inward, v + beside]);
-        } else if (v < NOTCH.near) {
-            this.cut(sheet, [u + beside * inward, -0.002], [u + beside * inward, NOTCH.long]);
+        const { near, beside, long } = NOTCH, aside = Math.min(u, SIZE - u), inward = Math.sign(SIZE / 2 - u) || 1, border = inward > 0 ? 0 : SIZE;
+        const along = aside < v ? [border, v + beside, inward, 0] : [u + beside * inward, 0, 0, 1];
+        if (Math.min(aside, v) < near && along[1] < SIZE) {
+            const cut = sheet.beginCut([along[0] - 0.002 * along[2], along[1] - 0.002 * along[3]]);
+            cut.extend([along[0] + long * along[2], along[1] + long * along[3]]);
+            cut.end();
         }
-    }
-
-    cut(sheet, from, to) {
-        const cut = sheet.beginCut(from);
-        cut.extend(to);
-        cut.end();
     }
 
     end() {
         super.end();
-        this.game.simulation.sheet.setTearing({ toughness: 0 });
+        const { sheet, options } = this.game.simulation;
+        if (options.material.toughness) {
+            sheet.setTearing({ toughness: 0 });
+        }
     }
 }
 
