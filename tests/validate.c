@@ -276,10 +276,9 @@ static bool Check_PinShares(Check* check, const kiriSheetData* sheet)
     REQUIRE(sheet->linkParts.count == (sheet->layout.severed.count > 0 ? sheet->links.links.count : 0),
             "parts of %d links of %d, %d severed", sheet->linkParts.count, sheet->links.links.count,
             sheet->layout.severed.count);
-    REQUIRE(sheet->pinRows.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares->count &&
-                sheet->frameReactions.capacity >= sheet->frames.count,
-            "room for %d pins of %d, %d clamps of %d, %d frames", sheet->pinRows.capacity, sheet->pins.count,
-            sheet->clampRows.capacity, shares->count, sheet->frameReactions.capacity);
+    REQUIRE(sheet->pinRows.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares->count,
+            "room for %d pins of %d, %d clamps of %d", sheet->pinRows.capacity, sheet->pins.count,
+            sheet->clampRows.capacity, shares->count);
     return true;
 }
 

@@ -1258,12 +1258,12 @@ static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
     sum.given = kiriVec3_Scale(sum.more, sum.given);
     bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
     KIRI_TIMES_WHILE(isBalanced, k, system->pinCount) {
-        if (solver->pinReactions.data[k] == NULL) {
-            continue;
-        }
+        kiriReaction* reaction = system->pins[k].reaction;
         kiriVec3 left = kiriVec3_Sub(sum.asked, sum.given);
-        kiriVec3* impulse = &solver->pinReactions.data[k]->impulse.force;
-        *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
+        if (reaction != NULL) {
+            kiriVec3* impulse = &reaction->impulse.force;
+            *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
+        }
     }
 }
 

@@ -21,11 +21,6 @@ typedef struct kiriReaction {
     kiriWrench now;     /* force at the end of the current step */
 } kiriReaction;
 
-/* One reaction for each pin row, clamp row and frame of a system; each array may be null. Free frames have zeros. */
-typedef struct kiriReactions {
-    kiriReaction *pins, *clamps, *frames;
-} kiriReactions;
-
 static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrench* wrench)
 {
     sum->force = kiriVec3_AddScaled(sum->force, scale, wrench->force);

@@ -405,8 +405,8 @@ bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_
 static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
     kiriMemory* memory = solver->memory;
-    return kiriArrays_Reserve(memory, pins, &solver->pins, &solver->pinReactions) &&
-           kiriArrays_Reserve(memory, clamps, &solver->clamps, &solver->clampRows, &solver->clampReactions) &&
+    return kiriArray_Reserve(memory, &solver->pins, pins) &&
+           kiriArrays_Reserve(memory, clamps, &solver->clamps, &solver->clampRows) &&
            kiriArray_Reserve(memory, &solver->contacts, contacts);
 }
 
@@ -558,9 +558,7 @@ static void TakeFrames(kiriSolver* solver, const kiriIslandBody* member)
     body->island = solver->sources.count;
     KIRI_EACH_INDEX(n, body->frames) {
         int32_t f = solver->sources.count++;
-        kiriReaction* reactions = sheet->reactions.frames;
-        solver->sources.data[f].frame = &sheet->frames[frames[n]];
-        solver->sources.data[f].reaction = reactions != NULL ? &reactions[frames[n]] : NULL;
+        solver->sources.data[f] = &sheet->frames[frames[n]];
         solver->materials.data[f] = &sheet->material;
         solver->airs.data[f] = sheet->air;
     }
@@ -577,7 +575,6 @@ static void TakePins(kiriSolver* solver, const kiriIslandBody* member)
 {
     const kiriSystem* sheet = member->sheet;
     for (int32_t k = BodyOfMember(member)->pin; k != KIRI_NONE; k = member->solver->nextPin.data[k]) {
-        solver->pinReactions.data[solver->pins.count] = sheet->reactions.pins != NULL ? &sheet->reactions.pins[k] : NULL;
         kiriPinRow* pin = &KIRI_NEXT(solver->pins);
         *pin = sheet->pins[k];
         pin->frame = IslandFrame(member->solver, pin->frame);
@@ -591,7 +588,6 @@ static void TakeClamps(kiriSolver* solver, const kiriIslandBody* member)
         int32_t n = solver->clamps.count++;
         KIRI_ASSERT(n < solver->clamps.capacity);
         solver->clampRows.data[n] = &sheet->clamps[k];
-        solver->clampReactions.data[n] = sheet->reactions.clamps != NULL ? &sheet->reactions.clamps[k] : NULL;
         solver->clamps.data[n] = sheet->clamps[k];
         solver->clamps.data[n].frame = IslandFrame(member->solver, sheet->clamps[k].frame);
     }
@@ -880,7 +876,7 @@ static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
 static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_TIMES(f, system->frameCount) {
-        kiriFrameData* frame = solver->sources.data[f].frame;
+        kiriFrameData* frame = solver->sources.data[f];
         const kiriFrameData* end = &solver->after.data[f];
         frame->x = end->x;
         frame->A = frame->held                                  ? frame->heldRotation

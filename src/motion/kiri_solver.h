@@ -95,7 +95,8 @@ typedef struct kiriPinRow {
     int32_t frame;
     kiriVec2 at; /* local rest, m */
     kiriVec3 target;
-    double stiffness; /* N/m */
+    double stiffness;       /* N/m */
+    kiriReaction* reaction; /* a step adds to it; null: not computed */
 } kiriPinRow;
 
 /* Model of motion. */
@@ -142,7 +143,6 @@ typedef struct kiriSystem {
     kiriYieldRow* yields;
     int32_t yieldCount;
     kiriStitchRow* stitches; /* of the system of an island: the first one, or null; a step adds to their impulses */
-    kiriReactions reactions; /* a step adds to them; null: not computed */
     kiriMaterial material;
     kiriVec3 gravity;
     const kiriAir* air; /* null: none */
@@ -250,7 +250,7 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
    must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
    KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more). Returns -1 if the motion is not
    finite: then the frames are unchanged. Allocates nothing. Reads forces on frames and does not clear them; adds to
-   reactions. */
+   reactions of rows and of held frames. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,
                         int32_t most);
 
@@ -475,12 +475,6 @@ typedef struct kiriSolverBody {
     int32_t island; /* scratch: its first frame in the island that contains it */
 } kiriSolverBody;
 
-/* Where a frame of an island comes from. */
-typedef struct kiriFrameSource {
-    kiriFrameData* frame;   /* of the sheet */
-    kiriReaction* reaction; /* null: not computed */
-} kiriFrameSource;
-
 /* All bodies of a sheet, with the indices of their pieces. The items of a body are contiguous, in the order of the
    sheet. */
 typedef struct kiriSolverBodies {
@@ -510,7 +504,7 @@ struct kiriSolver {
     kiriMatrix* matrix;
     const kiriIslandBody* islandBodies;
     int32_t islandCount;
-    KIRI_ARRAY(kiriFrameSource) sources;
+    KIRI_ARRAY(kiriFrameData*) sources; /* per frame: the frame of its sheet */
     KIRI_ARRAY(const kiriMaterial*) materials;
     KIRI_ARRAY(const kiriAir*) airs;
     KIRI_ARRAY(kiriLink) islandLinks;     /* if there are several bodies, copies of theirs */
@@ -532,7 +526,6 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPinRow) pins;
     KIRI_ARRAY(kiriClampRow) clamps;
     KIRI_ARRAY(kiriClampRow*) clampRows; /* per clamp: its row in the sheet */
-    KIRI_ARRAY(kiriReaction*) pinReactions, clampReactions; /* null: not computed */
     KIRI_ARRAY(kiriContactStep) contacts;
     KIRI_ARRAY(kiriLinkPart) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;

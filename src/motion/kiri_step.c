@@ -114,7 +114,7 @@ static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* s
 {
     kiriStepping chosen = kiriStepping_Euler(solver->dt);
     KIRI_TIMES(f, system->frameCount) {
-        const kiriFrameData* frame = solver->sources.data[f].frame;
+        const kiriFrameData* frame = solver->sources.data[f];
         if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || IsBroken(frame, solver->dt)) {
             return kiriStepping_Euler(solver->dt);
         }
@@ -562,7 +562,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     KIRI_TIMES(f, system->frameCount) {
         double z = dt * (double)kiriSystem_MaterialOf(system, f)->airDamping;
         double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
-        const kiriFrameData* frame = solver->sources.data[f].frame;
+        const kiriFrameData* frame = solver->sources.data[f];
         kiriFrameData* before = &solver->before.data[f];
         solver->isHeld |= frame->held != 0;
         solver->start.data[f] = kiriPose_Of(frame);
@@ -1188,10 +1188,10 @@ static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 poin
 /* Takes a wrench about x of a frame from its hold: the hold bears all but the frame's own forces. */
 static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
 {
-    if (solver->sources.data[frame].reaction != NULL && system->frames[frame].held) {
+    if (system->frames[frame].held) {
         kiriVec3 held = solver->before.data[frame].heldPosition;
         wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
-        kiriWrench_Add(&solver->sources.data[frame].reaction->now, -1.0, &wrench);
+        kiriWrench_Add(&solver->sources.data[frame]->reaction.now, -1.0, &wrench);
     }
 }
 
@@ -1201,8 +1201,8 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
         kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
-        if (solver->pinReactions.data[k] != NULL) {
-            solver->pinReactions.data[k]->now.force = force;
+        if (pin->reaction != NULL) {
+            pin->reaction->now.force = force;
         }
         TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
     }
@@ -1223,8 +1223,8 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
             double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
             AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
-        if (solver->clampReactions.data[k] != NULL) {
-            solver->clampReactions.data[k]->now = AboutPoint(&wrench, pose->x, row->pose.x);
+        if (row->reaction != NULL) {
+            row->reaction->now = AboutPoint(&wrench, pose->x, row->pose.x);
         }
         TakeFromHold(solver, system, row->frame, wrench);
     }
@@ -1282,7 +1282,7 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
     kiriWrench wrench = { kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force)),
                           kiriVec3_AddScaled(turned, -solver->dt, before->torque) };
     wrench = AboutPoint(&wrench, solver->poses.data[f].x, before->heldPosition);
-    kiriWrench_Add(&solver->sources.data[f].reaction->impulse, 1.0, &wrench);
+    kiriWrench_Add(&solver->sources.data[f]->reaction.impulse, 1.0, &wrench);
 }
 
 /* Turns the force at the end of the step into an impulse by the step's scheme (kiri_frame.h), as inner forces are: so
@@ -1290,6 +1290,9 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
 static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 {
     kiriWrench gain = { 0 }, none = gain;
+    if (reaction == NULL) {
+        return;
+    }
     kiriWrench_Add(&gain, stepping->c, &reaction->gain);
     kiriWrench_Add(&gain, stepping->l, &reaction->pull);
     kiriWrench_Add(&gain, stepping->part, &reaction->now);
@@ -1302,18 +1305,14 @@ static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_TIMES(k, system->pinCount) {
-        if (solver->pinReactions.data[k] != NULL) {
-            EndReaction(&solver->stepping, solver->pinReactions.data[k]);
-        }
+        EndReaction(&solver->stepping, system->pins[k].reaction);
     }
     KIRI_TIMES(k, system->clampCount) {
-        if (solver->clampReactions.data[k] != NULL) {
-            EndReaction(&solver->stepping, solver->clampReactions.data[k]);
-        }
+        EndReaction(&solver->stepping, system->clamps[k].reaction);
     }
     KIRI_TIMES(f, system->frameCount) {
-        if (solver->sources.data[f].reaction != NULL && system->frames[f].held) {
-            EndReaction(&solver->stepping, solver->sources.data[f].reaction);
+        if (system->frames[f].held) {
+            EndReaction(&solver->stepping, &solver->sources.data[f]->reaction);
             AddMomentum(solver, system, f);
         }
     }

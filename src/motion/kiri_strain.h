@@ -367,6 +367,7 @@ typedef struct kiriClampRow {
     kiriPlastic plastic;
     double* keptOffset; /* where a step writes offset and plastic part at its end; null: the clamp is elastic */
     kiriPlastic* keptPlastic;
+    kiriReaction* reaction; /* a step adds to it; null: not computed */
 
     double outer; /* m: part of the width at free ends; link.outer is zero, because the line does not curl */
     const kiriMaterial* material;

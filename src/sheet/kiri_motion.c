@@ -28,9 +28,6 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.linkParts = sheet->linkParts.count > 0 ? sheet->linkParts.data : NULL;
     system.clamps = sheet->clampRows.data;
     system.clampCount = sheet->clampRows.count;
-    system.reactions.pins = sheet->pinReactions.data;
-    system.reactions.clamps = sheet->clampReactions.data;
-    system.reactions.frames = sheet->frameReactions.data;
     system.contacts = sheet->touches.rows.data;
     system.contactCount = sheet->touches.rows.count;
     system.yields = sheet->touches.yields.data;
@@ -273,9 +270,14 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
     tears->before.count = sheet->frames.count;
     memcpy(tears->before.data, sheet->frames.data, sizeof(kiriFrameData) * (size_t)sheet->frames.count);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
+    KIRI_EACH(kiriPinRow, pin, sheet->pinRows) {
+        pin->reaction = NULL;
+    }
+    KIRI_EACH(kiriClampRow, clamp, sheet->clampRows) {
+        clamp->reaction = NULL;
+    }
     kiriSystem system = MakeSystem(sheet, gravity);
     system.contactCount = 0;
-    system.reactions = (kiriReactions){ 0 };
     kiriSolver_ShareRows(sheet->solver, &system);
     KIRI_EACH(const int32_t, at, sheet->solver->moved.bodies) {
         solved = kiriMax(kiriSolver_Step(sheet->solver, &system, *at, dt, iterations, (int32_t)most), solved);

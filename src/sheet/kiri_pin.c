@@ -79,13 +79,11 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 
 /* ---- Pins come and go -------------------------------------------------------------------------------------------- */
 
-/* Reserves rows and reactions. */
-static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
+static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t links)
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
-           kiriArrays_Reserve(sheet->memory, pins + 2 * shares, &sheet->pinRows, &sheet->pinReactions) &&
-           kiriArrays_Reserve(sheet->memory, shares, &sheet->clampRows, &sheet->clampReactions) &&
-           kiriArray_Reserve(sheet->memory, &sheet->frameReactions, frames) &&
+           kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
            (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
 
@@ -132,7 +130,7 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
     shares += pin->type == KIRI_PIN_POINT ? 0 : sheet->lineShares.count;
     if (!kiriArrays_Reserve(sheet->memory, need, &sheet->pins, &sheet->layout.pinFrame) ||
         !kiriArray_Reserve(sheet->memory, &sheet->layout.pinShares, shares) ||
-        !ReserveRows(sheet, need, shares, sheet->frames.count, sheet->links.links.count)) {
+        !ReserveRows(sheet, need, shares, sheet->links.links.count)) {
         sheet->layout.severed.count = severed;
         return false;
     }
@@ -200,7 +198,6 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
 bool kiriPins_Stage(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
-    int32_t frames = sheet->update->placing.sites.count;
     next->pinShares.count = next->severed.count = 0;
     bool ok = kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count);
     KIRI_EACH_INDEX_WHILE(ok, i, sheet->pins) {
@@ -217,7 +214,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
             next->pinFrame.data[i] = AppendShares(sheet, i, &next->pinShares, sheet->layout.pinFrame.data[i]);
         }
     }
-    return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, frames, sheet->links.next.count);
+    return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, sheet->links.next.count);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -245,7 +242,7 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
 
 /* Writes the rows of a hinge. It holds the line by springs along it, as stiff as the material up to the site. Two
    springs are equivalent, at the points of two equal masses with the line's length, centroid and second moment. */
-static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double to)
+static void WriteHinge(kiriSheetData* sheet, kiriPinShare* pinned, double to)
 {
     const kiriMaterial* material = &sheet->settings.material;
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
@@ -260,8 +257,8 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     const kiriVec2 at[2] = { kiriVec2_Sub(shape.centroid, arm), kiriVec2_Add(shape.centroid, arm) };
     KIRI_TIMES(k, 2) {
         kiriVec3 target = HeldPoint(&line, TargetAfter(pin, to), &rotation, at[k]);
-        kiriPinRow spring = { pinned->share.frame, at[k], target, 0.5 * stiffness };
-        KIRI_NEXT(sheet->pinRows) = spring;
+        KIRI_NEXT(sheet->pinRows) =
+            (kiriPinRow){ pinned->share.frame, at[k], target, 0.5 * stiffness, &pinned->reactions[k] };
     }
 }
 
@@ -302,42 +299,21 @@ static bool IsAwakePoint(const kiriSheetData* sheet, int32_t index)
     return sheet->pins.data[index].type == KIRI_PIN_POINT && kiriSheet_Moves(sheet, sheet->layout.pinFrame.data[index]);
 }
 
-/* Returns a reaction at the start of a tick: zero, with the history of the last one. */
-static kiriReaction BeginReaction(const kiriReaction* last)
-{
-    const kiriWrench none = { 0 };
-    kiriReaction reaction = { none, last->gain, last->pull, none };
-    return reaction;
-}
-
-/* Starts the reactions, in the order of rows. */
 void kiriPins_BeginReactions(kiriSheetData* sheet)
 {
-    KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
-    sheet->pinReactions.count = sheet->clampReactions.count = 0;
     KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
-            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&sheet->pins.data[i].reaction);
+            KIRI_CLEAR(&sheet->pins.data[i].reaction.impulse);
         }
     }
-    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
-        if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
-            continue;
-        }
-        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
-            KIRI_NEXT(sheet->clampReactions) = BeginReaction(&pinned->reactions[0]);
-        } else {
-            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&pinned->reactions[0]);
-            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&pinned->reactions[1]);
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
+        KIRI_TIMES_WHILE(kiriSheet_Moves(sheet, pinned->share.frame), k, 2) {
+            KIRI_CLEAR(&pinned->reactions[k].impulse);
         }
     }
-    sheet->frameReactions.count = sheet->frames.count;
     KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        int32_t i = *at;
-        sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
+        KIRI_CLEAR(&sheet->frames.data[*at].reaction.impulse);
     }
-    KIRI_ASSERT(sheet->pinReactions.count == sheet->pinRows.count &&
-                sheet->clampReactions.count == sheet->clampRows.count);
 }
 
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
@@ -347,11 +323,12 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
             /* A yielding obstacle is a second spring in series. */
-            const kiriPinData* pin = &sheet->pins.data[i];
+            kiriPinData* pin = &sheet->pins.data[i];
             kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->off), pin->anchor.way);
             double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
             KIRI_NEXT(sheet->pinRows) = (kiriPinRow){ sheet->layout.pinFrame.data[i],
-                                                      kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness };
+                                                      kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness,
+                                                      &pin->reaction };
         }
     }
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -364,6 +341,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
             kiriClampRow* row = &KIRI_NEXT(sheet->clampRows);
             *row = ClampRowOf(sheet, pinned, frame, from, to);
+            row->reaction = &pinned->reactions[0];
             row->keptOffset = yields ? pinned->offset : NULL;
             row->keptPlastic = yields ? &pinned->plastic : NULL;
         }
@@ -498,9 +476,8 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinData* pin = &sheet->pins.data[i];
         if (IsAwakePoint(sheet, i)) {
-            KIRI_ASSERT(row < sheet->pinReactions.count);
             KIRI_CLEAR(&pin->bore);
-            pin->reaction = sheet->pinReactions.data[row++];
+            ++row;
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
         }
     }
@@ -511,17 +488,13 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
         }
         KIRI_CLEAR(&pinned->bore);
         if (pin->type == KIRI_PIN_CLAMP) {
-            KIRI_ASSERT(clamp < sheet->clampRows.count && clamp < sheet->clampReactions.count);
-            kiriVec3 at = sheet->clampRows.data[clamp].pose.x;
-            pinned->reactions[0] = sheet->clampReactions.data[clamp++];
-            AddBorne(pin, &pinned->reactions[0], at, perTime, &pinned->bore);
+            KIRI_ASSERT(clamp < sheet->clampRows.count);
+            AddBorne(pin, &pinned->reactions[0], sheet->clampRows.data[clamp++].pose.x, perTime, &pinned->bore);
             continue;
         }
         KIRI_TIMES(spring, 2) {
-            KIRI_ASSERT(row < sheet->pinRows.count && row < sheet->pinReactions.count);
-            kiriVec3 at = sheet->pinRows.data[row].target;
-            pinned->reactions[spring] = sheet->pinReactions.data[row++];
-            AddBorne(pin, &pinned->reactions[spring], at, perTime, &pinned->bore);
+            KIRI_ASSERT(row < sheet->pinRows.count);
+            AddBorne(pin, &pinned->reactions[spring], sheet->pinRows.data[row++].target, perTime, &pinned->bore);
         }
     }
     kiriPins_SumShares(sheet);
@@ -543,9 +516,7 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
     KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        int32_t i = *at;
-        kiriFrameData* frame = &sheet->frames.data[i];
-        frame->reaction = sheet->frameReactions.data[i];
+        kiriFrameData* frame = &sheet->frames.data[*at];
         KIRI_CLEAR(&frame->bore);
         kiriWrench_Add(&frame->bore, 1.0 / dt, &frame->reaction.impulse);
     }
@@ -767,23 +738,17 @@ static void MoveHeld(kiriFrameData* frame, int32_t left)
 static bool MoveTargets(kiriSheetData* sheet, double after, double h)
 {
     bool any = false;
-    int32_t row = 0;
     KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinData* pin = &sheet->pins.data[i];
         kiriPinAnchor* anchor = &pin->anchor;
         any =
             any || !kiriVec3_Equal(pin->target, pin->lastTarget) || !kiriMat3_Equal(&pin->rotation, &pin->lastRotation);
-        if (!IsAwakePoint(sheet, i)) {
-            continue;
-        }
-        if (anchor->most > 0.0) {
-            KIRI_ASSERT(row < sheet->pinReactions.count);
-            kiriVec3 given = kiriVec3_Scale(-1.0, sheet->pinReactions.data[row].impulse.force);
+        if (IsAwakePoint(sheet, i) && anchor->most > 0.0) {
+            kiriVec3 given = kiriVec3_Scale(-1.0, pin->reaction.impulse.force);
             anchor->way = kiriVec3_Scale(after, kiriMat3_Mul(anchor->give, given));
             anchor->softness = after * h * anchor->most;
             any = true;
         }
-        ++row;
     }
     return any;
 }

@@ -42,8 +42,8 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 /* Writes the rows of all clamps at the end of the tick; `rows` has room for one a share. Returns how many. */
 int32_t kiriPins_WriteClamps(const kiriSheetData* sheet, kiriClampRow* rows);
 
-/* Write the rows and reactions of awake pieces. Targets move linearly within a tick: the rows are for a step between
-   two fractions of the tick in [0, 1]. Reactions start at zero and keep their history. */
+/* Write the rows of awake pieces, and clear and read their reactions. Targets move linearly within a tick: the rows are
+   for a step between two fractions of the tick in [0, 1]. Reactions keep their history. */
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to);
 void kiriPins_BeginReactions(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);

@@ -531,7 +531,6 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriPinRow) pinRows;     /* one for each point, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
     KIRI_ARRAY(kiriLinkPart) linkParts; /* of each link, what clamps leave; empty: all of every link */
-    KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
     kiriLine line;                                                         /* last line query */
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */
 

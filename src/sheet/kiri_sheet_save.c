@@ -350,7 +350,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PART(probes, ProbesTable),
     KIRI_ROOM_OF(sewn),
     KIRI_PART(tears, TearsTable),
-    KIRI_ROOMS(pinRows, clampRows, pinReactions, clampReactions, frameReactions),
+    KIRI_ROOMS(pinRows, clampRows),
     KIRI_KEPT(memory, shown),
     KIRI_DROPPED(solver, cuts),
     KIRI_DROPPED(line, lineShares),
@@ -645,8 +645,7 @@ static bool AreFades(const kiriFades* fades, const kiriSettings* settings, int32
            kiriFades_AreSound(fades, samples);
 }
 
-/* Returns true if arrays with an item a link have that length, and rows and reactions of pins and clamps fit their
-   capacity. */
+/* Returns true if arrays with an item a link have that length, and rows of pins and clamps fit their capacity. */
 static bool HaveArraysRoom(const kiriSheetData* sheet)
 {
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
@@ -656,9 +655,7 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
                   (!kiriSettings_Yield(&sheet->settings) || isPlastic) &&
                   sheet->plastics.links.count == (isPlastic ? links : 0) &&
                   sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0) &&
-                  sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
-                  sheet->pinReactions.capacity >= pins && sheet->clampReactions.capacity >= shares &&
-                  sheet->frameReactions.capacity >= sheet->frames.count;
+                  sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares;
     KIRI_EACH_WHILE(isFine, const kiriSeveredLink, link, sheet->layout.severed) {
         isFine = link->link < links;
     }
