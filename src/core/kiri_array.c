@@ -13,6 +13,13 @@ void kiriArray_SetHeader(void* array, kiriArrayHeader header)
     memcpy(array, &header, sizeof(header));
 }
 
+void kiriArray_Swap(void* a, void* b)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(a);
+    kiriArray_SetHeader(a, kiriArray_GetHeader(b));
+    kiriArray_SetHeader(b, header);
+}
+
 /* Moves the items to a new block of `capacity` items. */
 static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes)
 {

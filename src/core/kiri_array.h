@@ -24,6 +24,7 @@ typedef struct kiriArrayHeader {
 
 kiriArrayHeader kiriArray_GetHeader(const void* array);
 void kiriArray_SetHeader(void* array, kiriArrayHeader header);
+void kiriArray_Swap(void* a, void* b);
 
 typedef KIRI_ARRAY(int32_t) kiriIndices;
 typedef KIRI_ARRAY(uint8_t) kiriFlags;

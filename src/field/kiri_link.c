@@ -1793,18 +1793,11 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
     return ok;
 }
 
-static void SwapArrays(void* a, void* b)
-{
-    kiriArrayHeader header = kiriArray_GetHeader(a);
-    kiriArray_SetHeader(a, kiriArray_GetHeader(b));
-    kiriArray_SetHeader(b, header);
-}
-
 void kiriLinks_Commit(kiriLinks* links)
 {
     KIRI_ASSERT(!links->work->running && links->work->nextEnds.count == links->next.count);
-    SwapArrays(&links->links, &links->next);
-    SwapArrays(&links->corners, &links->nextCorners);
-    SwapArrays(&links->work->ends, &links->work->nextEnds);
+    kiriArray_Swap(&links->links, &links->next);
+    kiriArray_Swap(&links->corners, &links->nextCorners);
+    kiriArray_Swap(&links->work->ends, &links->work->nextEnds);
     links->next.count = links->nextCorners.count = links->work->nextEnds.count = 0;
 }

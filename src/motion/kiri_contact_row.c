@@ -289,7 +289,7 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
         const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];
         int32_t k = body->contact, first = body->island, count = body->frames.count;
         double share = k != KIRI_NONE ? MassOf(system, first, count) / mass : 0.0;
-        for (; k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
+        for (; k != KIRI_NONE; k = member->sheet->contacts[k].next) {
             BeginContact(solver, system, member, k, share);
         }
     }

@@ -320,8 +320,6 @@ void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLi
         kiriVec2 parts = { kiriVec2_Dot(curvature, link->normal), kiriVec2_Dot(curvature, link->tangent) };
         next->part = Refold(kiriLink_AlongEdge(link, parts), &by);
     }
-    kiriArrayHeader header = kiriArray_GetHeader(&plastics->links);
-    kiriArray_SetHeader(&plastics->links, kiriArray_GetHeader(&plastics->next));
-    kiriArray_SetHeader(&plastics->next, header);
+    kiriArray_Swap(&plastics->links, &plastics->next);
     plastics->links.count = linkCount;
 }

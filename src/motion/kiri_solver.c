@@ -412,10 +412,9 @@ static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64
 
 bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
-    kiriMemory* memory = solver->memory;
-    return ReserveTaken(solver, pins, clamps, contacts) && kiriArray_Reserve(memory, &solver->nextPin, pins) &&
-           kiriArray_Reserve(memory, &solver->nextClamp, clamps) &&
-           kiriArray_Reserve(memory, &solver->nextContact, contacts);
+    return ReserveTaken(solver, pins, clamps, contacts) &&
+           kiriArray_Reserve(solver->memory, &solver->nextPin, pins) &&
+           kiriArray_Reserve(solver->memory, &solver->nextClamp, clamps);
 }
 
 /* ---- Moved bodies ----------------------------------------------------------------------------------------------- */
@@ -516,8 +515,7 @@ static kiriSolverBody* BodyOf(kiriSolver* solver, int32_t frame)
 void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_ASSERT(solver->moved.isListed);
-    KIRI_ASSERT(system->pinCount <= solver->nextPin.capacity && system->clampCount <= solver->nextClamp.capacity &&
-                system->contactCount <= solver->nextContact.capacity);
+    KIRI_ASSERT(system->pinCount <= solver->nextPin.capacity && system->clampCount <= solver->nextClamp.capacity);
     KIRI_EACH(const int32_t, moved, solver->moved.bodies) {
         kiriSolverBody* body = &solver->bodies.bodies.data[*moved];
         body->pin = body->clamp = body->contact = KIRI_NONE;
@@ -535,7 +533,7 @@ void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = system->contactCount - 1; k >= 0; --k) {
         kiriSolverBody* body = BodyOf(solver, system->contacts[k].weights[0].frame);
-        solver->nextContact.data[k] = body->contact;
+        system->contacts[k].next = body->contact;
         body->contact = k;
         body->contactCount += 1;
     }
@@ -752,7 +750,7 @@ static bool AddPair(kiriMemory* memory, kiriIslandMatrix* island, int32_t a, int
 static bool AddContactPairs(kiriMemory* memory, kiriIslandMatrix* island, const kiriIslandBody* member)
 {
     bool ok = true;
-    for (int32_t k = BodyOfMember(member)->contact; ok && k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
+    for (int32_t k = BodyOfMember(member)->contact; ok && k != KIRI_NONE; k = member->sheet->contacts[k].next) {
         const kiriContactRow* row = &member->sheet->contacts[k];
         KIRI_TIMES_WHILE(ok && row->other != NULL, i, row->weightCount * row->otherCount) {
             int32_t a = row->weights[i / row->otherCount].frame, b = row->otherWeights[i % row->otherCount].frame;
@@ -855,9 +853,7 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
         island->matrix = NULL;
         return false;
     }
-    kiriArrayHeader old = kiriArray_GetHeader(&island->pairs);
-    kiriArray_SetHeader(&island->pairs, kiriArray_GetHeader(&island->next));
-    kiriArray_SetHeader(&island->next, old);
+    kiriArray_Swap(&island->pairs, &island->next);
     return true;
 }
 

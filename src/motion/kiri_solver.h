@@ -60,6 +60,7 @@ typedef struct kiriContactRow {
     kiriVec3 way;      /* m: displacement of the plane's material since the start of the tick; a step adds to it */
     kiriVec3 force;    /* N, on the sheet: in: from the last tick, or zero; out: from the last step */
     kiriVec3 impulse;  /* N s, on the sheet, since the start of the tick; a step adds to it */
+    int32_t next;      /* next row of the same body, or KIRI_NONE: kiriSolver_ShareRows */
 } kiriContactRow;
 
 enum { KIRI_STITCH_MEMBERS = 2 * KIRI_CONTACT_WEIGHTS };
@@ -498,7 +499,7 @@ struct kiriSolver {
     kiriMoved moved;
     KIRI_ARRAY(kiriPair) pairs;                  /* scratch: of a staged body */
     kiriIndices linkPlace, order;                /* scratch: per staged link, its index in its body */
-    kiriIndices nextPin, nextClamp, nextContact; /* per row: next row of the same body, or KIRI_NONE */
+    kiriIndices nextPin, nextClamp;              /* per row: next row of the same body, or KIRI_NONE */
 
     /* State of the body that steps. Arrays have room for the largest body, committed or staged. */
     kiriMatrix* matrix;

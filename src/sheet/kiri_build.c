@@ -235,9 +235,7 @@ static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def,
         !kiriArray_Reserve(sheet->memory, &placing->sites, def->frameCount)) {
         return KIRI_ERROR_MEMORY;
     }
-    KIRI_EACH(int32_t, own, placing->own) {
-        *own = KIRI_NONE;
-    }
+    kiriArray_Set(&placing->own, KIRI_NONE);
     KIRI_TIMES(i, def->frameCount) {
         if (!TakeFramePoint(sheet, def, i, placing->own.data, fault)) {
             return KIRI_ERROR_ARGUMENT;

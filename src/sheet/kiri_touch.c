@@ -946,8 +946,6 @@ void kiriTouches_Tell(kiriSheetData* sheet, double dt)
     KIRI_EACH_INDEX(i, sheet->contacts) {
         TellOne(sheet, i, dt, &touches->nextTold.data[i]);
     }
-    kiriArrayHeader told = kiriArray_GetHeader(&touches->told);
-    kiriArray_SetHeader(&touches->told, kiriArray_GetHeader(&touches->nextTold));
-    kiriArray_SetHeader(&touches->nextTold, told);
+    kiriArray_Swap(&touches->told, &touches->nextTold);
     sheet->contacts.count = 0;
 }
