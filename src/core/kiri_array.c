@@ -274,6 +274,40 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
     return true;
 }
 
+static kiriSpan* SpanAt(kiriSpan* spans, size_t strideBytes, int32_t group)
+{
+    KIRI_ASSERT(group >= 0);
+    return (kiriSpan*)((char*)spans + strideBytes * (size_t)group);
+}
+
+int32_t kiriSpans_Group(const int32_t* of, int32_t count, kiriSpan* spans, size_t strideBytes, int32_t groups,
+                        int32_t* items)
+{
+    int32_t all = 0;
+    KIRI_TIMES(g, groups) {
+        SpanAt(spans, strideBytes, g)->count = 0;
+    }
+    KIRI_TIMES(i, count) {
+        KIRI_ASSERT(of[i] >= KIRI_NONE && of[i] < groups);
+        if (of[i] != KIRI_NONE) {
+            SpanAt(spans, strideBytes, of[i])->count += 1;
+        }
+    }
+    KIRI_TIMES(g, groups) {
+        kiriSpan* span = SpanAt(spans, strideBytes, g);
+        span->first = all;
+        all += span->count;
+        span->count = 0;
+    }
+    KIRI_TIMES(i, count) {
+        if (of[i] != KIRI_NONE) {
+            kiriSpan* span = SpanAt(spans, strideBytes, of[i]);
+            items[span->first + span->count++] = i;
+        }
+    }
+    return all;
+}
+
 /* ---- Index maps ---- */
 
 bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)

@@ -165,6 +165,11 @@ typedef struct kiriSpans {
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
+/* Sorts the indices of items by group, ascending in each. of[i] is the group of item i, or KIRI_NONE. Writes the span of
+   each group, which lie strideBytes apart. `items` has room for all. Returns how many items are in groups. */
+int32_t kiriSpans_Group(const int32_t* of, int32_t count, kiriSpan* spans, size_t strideBytes, int32_t groups,
+                        int32_t* items);
+
 /* Loops over the indices of a span. */
 #define KIRI_EACH_IN(i, span) KIRI_FROM_TO(i, (span).first, (span).first + (span).count)
 

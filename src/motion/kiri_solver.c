@@ -103,7 +103,7 @@ static bool ReserveBodies(kiriSolver* s, const kiriSystem* next)
            kiriArray_Resize(memory, &bodies->corners, next->cornerCount) &&
            kiriArray_Resize(memory, &bodies->areaElements.elements, areas) &&
            kiriArray_Resize(memory, &bodies->areaElements.shares, shares) &&
-           kiriArray_Resize(memory, &s->order, kiriMax((int64_t)next->cornerCount, areas)) &&
+           kiriArrays_Resize(memory, kiriMax(kiriMax(links, (int64_t)next->cornerCount), areas), &s->order, &s->itemBody) &&
            kiriArrays_Reserve(memory, frames, &s->moved.bodies, &s->moved.frames) &&
            kiriArray_Reserve(memory, &s->moved.links, links);
 }
@@ -130,57 +130,22 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
            kiriArray_Reserve(memory, &s->J, rows * s->size) && kiriArray_Reserve(memory, &s->airs, frames);
 }
 
-/* Returns a frame of item k of the sheet. */
-typedef int32_t FrameOfItem(const kiriSystem* system, int32_t k);
-
-static int32_t FrameItself(const kiriSystem* system, int32_t k)
-{
-    KIRI_ASSERT(k < system->frameCount);
-    (void)system;
-    return k;
-}
-
-static int32_t FrameOfLink(const kiriSystem* system, int32_t k)
-{
-    return system->links[k].i;
-}
-
-static int32_t FrameOfCorner(const kiriSystem* system, int32_t k)
-{
-    return system->links[system->corners[k].link[0]].i;
-}
-
-static int32_t FrameOfArea(const kiriSystem* system, int32_t k)
-{
-    return system->areaElements->shares.data[system->areaElements->elements.data[k].first].frame;
-}
-
 /* Sorts items by body, and sets the spans at this offset of kiriSolverBody. Items of a body keep their order. */
-static void ShareOut(kiriSolverBodies* bodies, size_t span, const kiriSystem* system, int32_t count, FrameOfItem* frameOf,
-                     int32_t* order)
+static void ShareOut(kiriSolverBodies* bodies, size_t span, const int32_t* bodyOf, int32_t count, int32_t* order)
 {
-    const int32_t* bodyOf = bodies->bodyOf.data;
-    KIRI_TIMES(k, count) {
-        ((kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span))->count += 1;
-    }
-    for (int32_t b = 0, first = 0; b < bodies->bodies.count; ++b) {
-        kiriSpan* of = (kiriSpan*)((char*)&bodies->bodies.data[b] + span);
-        of->first = first;
-        first += of->count;
-        of->count = 0;
-    }
-    KIRI_TIMES(k, count) {
-        kiriSpan* of = (kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span);
-        order[of->first + of->count++] = k;
-    }
+    kiriSpans_Group(bodyOf, count, (kiriSpan*)((char*)bodies->bodies.data + span), sizeof(kiriSolverBody),
+                    bodies->bodies.count, order);
 }
 
 static void TakeLinks(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolverBodies* bodies = &solver->next;
-    ShareOut(bodies, offsetof(kiriSolverBody, links), system, kiriElement_LinkCount(system), FrameOfLink,
-             bodies->links.data);
-    KIRI_TIMES(n, kiriElement_LinkCount(system)) {
+    int32_t count = kiriElement_LinkCount(system);
+    KIRI_TIMES(k, count) {
+        solver->itemBody.data[k] = bodies->bodyOf.data[system->links[k].i];
+    }
+    ShareOut(bodies, offsetof(kiriSolverBody, links), solver->itemBody.data, count, bodies->links.data);
+    KIRI_TIMES(n, count) {
         int32_t k = bodies->links.data[n], body = bodies->bodyOf.data[system->links[k].i];
         KIRI_ASSERT(bodies->bodyOf.data[system->links[k].j] == body);
         kiriLink* link = &bodies->ownLinks.data[n];
@@ -195,7 +160,10 @@ static void TakeCorners(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolverBodies* bodies = &solver->next;
     int32_t count = kiriElement_CornerCount(system);
-    ShareOut(bodies, offsetof(kiriSolverBody, corners), system, count, FrameOfCorner, solver->order.data);
+    KIRI_TIMES(k, count) {
+        solver->itemBody.data[k] = bodies->bodyOf.data[system->links[system->corners[k].link[0]].i];
+    }
+    ShareOut(bodies, offsetof(kiriSolverBody, corners), solver->itemBody.data, count, solver->order.data);
     KIRI_TIMES(n, count) {
         kiriCorner* corner = &bodies->corners.data[n];
         *corner = system->corners[solver->order.data[n]];
@@ -208,17 +176,18 @@ static void TakeCorners(kiriSolver* solver, const kiriSystem* system)
 static void TakeAreas(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolverBodies* bodies = &solver->next;
+    const kiriAreaElements* areas = system->areaElements;
     int32_t count = bodies->areaElements.elements.count;
-    if (count == 0) {
-        return;
+    KIRI_TIMES(k, count) {
+        solver->itemBody.data[k] = bodies->bodyOf.data[areas->shares.data[areas->elements.data[k].first].frame];
     }
-    ShareOut(bodies, offsetof(kiriSolverBody, elements), system, count, FrameOfArea, solver->order.data);
+    ShareOut(bodies, offsetof(kiriSolverBody, elements), solver->itemBody.data, count, solver->order.data);
     KIRI_TIMES(n, count) {
-        bodies->areaElements.elements.data[n] = system->areaElements->elements.data[solver->order.data[n]];
+        bodies->areaElements.elements.data[n] = areas->elements.data[solver->order.data[n]];
     }
     KIRI_EACH_INDEX(n, bodies->areaElements.shares) {
         kiriFrameShare* share = &bodies->areaElements.shares.data[n];
-        *share = system->areaElements->shares.data[n];
+        *share = areas->shares.data[n];
         share->frame = bodies->place.data[share->frame];
     }
 }
@@ -226,12 +195,12 @@ static void TakeAreas(kiriSolver* solver, const kiriSystem* system)
 static void ShareOutAll(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece)
 {
     kiriSolverBodies* bodies = &solver->next;
-    memset(bodies->bodies.data, 0, sizeof(kiriSolverBody) * (size_t)bodies->bodies.count);
+    kiriArray_Set(&bodies->bodies, 0);
     KIRI_TIMES(f, system->frameCount) {
         KIRI_ASSERT(framePiece[f] >= 0 && framePiece[f] < bodies->bodies.count);
         bodies->bodyOf.data[f] = framePiece[f];
     }
-    ShareOut(bodies, offsetof(kiriSolverBody, frames), system, system->frameCount, FrameItself, bodies->frames.data);
+    ShareOut(bodies, offsetof(kiriSolverBody, frames), framePiece, system->frameCount, bodies->frames.data);
     KIRI_EACH(const kiriSolverBody, body, bodies->bodies) {
         const kiriSpan* frames = &body->frames;
         KIRI_ASSERT(frames->count > 0);

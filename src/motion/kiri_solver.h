@@ -498,7 +498,8 @@ struct kiriSolver {
     bool isStaged;
     kiriMoved moved;
     KIRI_ARRAY(kiriPair) pairs;                  /* scratch: of a staged body */
-    kiriIndices linkPlace, order;                /* scratch: per staged link, its index in its body */
+    kiriIndices linkPlace;                       /* scratch: per staged link, its index in its body */
+    kiriIndices itemBody, order;                 /* scratch: of staged items */
     kiriIndices nextPin, nextClamp;              /* per row: next row of the same body, or KIRI_NONE */
 
     /* State of the body that steps. Arrays have room for the largest body, committed or staged. */

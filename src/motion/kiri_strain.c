@@ -1093,12 +1093,13 @@ static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memo
     return &elements->shares.data[k];
 }
 
-/* Input of the elements of regions: the links of region i are links[start[i]] to links[start[i + 1] - 1]. */
+/* Input of the elements of regions. */
 typedef struct RegionLinks {
     kiriMemory* memory;
     const kiriMoments* material; /* of each region */
-    kiriIndices start;
-    KIRI_ARRAY(const kiriLink*) links;
+    const kiriLink* links;
+    KIRI_ARRAY(kiriSpan) spans;  /* of each region: of ends */
+    kiriIndices ends;            /* 2 k, 2 k + 1: the regions of link k */
 } RegionLinks;
 
 static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, kiriAreaElement* element,
@@ -1134,50 +1135,37 @@ static bool AddRegionElement(kiriAreaElements* elements, const RegionLinks* regi
     }
     share->u.x = share->v.y = share->weight = 1.0;
     bool ok = true;
-    for (int32_t k = regions->start.data[frame]; ok && hasBorders && k < regions->start.data[frame + 1]; ++k) {
-        ok = AddBorder(elements, regions, &element, regions->links.data[k]);
+    kiriSpan span = regions->spans.data[frame];
+    KIRI_FROM_TO_WHILE(ok && hasBorders, k, span.first, span.first + span.count) {
+        ok = AddBorder(elements, regions, &element, &regions->links[regions->ends.data[k] / 2]);
     }
     return ok && kiriArray_Push(regions->memory, &elements->elements, element);
-}
-
-static bool CollectLinksByRegion(RegionLinks* regions, const kiriLink* links, int32_t linkCount, int32_t frameCount)
-{
-    if (!kiriArray_Resize(regions->memory, &regions->start, (int64_t)frameCount + 1) ||
-        !kiriArray_Resize(regions->memory, &regions->links, 2 * (int64_t)linkCount)) {
-        return false;
-    }
-    int32_t* start = regions->start.data;
-    for (int32_t i = 0; i <= frameCount; ++i) {
-        start[i] = 0;
-    }
-    KIRI_TIMES(k, linkCount) {
-        ++start[links[k].i];
-        ++start[links[k].j];
-    }
-    KIRI_TIMES(i, frameCount) {
-        start[i + 1] += start[i];
-    }
-    for (int32_t k = linkCount - 1; k >= 0; --k) {
-        regions->links.data[--start[links[k].i]] = &links[k];
-        regions->links.data[--start[links[k].j]] = &links[k];
-    }
-    return true;
 }
 
 bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
                       const kiriMoments* material, int32_t frameCount, bool planar)
 {
-    RegionLinks regions = { memory, material, { 0 }, { 0 } };
+    RegionLinks regions = { memory, material, links, { 0 }, { 0 } };
+    kiriIndices of = { 0 };
     elements->elements.count = elements->shares.count = 0;
-    bool ok = CollectLinksByRegion(&regions, links, linkCount, frameCount);
+    bool ok = kiriArray_Resize(memory, &regions.spans, frameCount) &&
+              kiriArrays_Resize(memory, 2 * (int64_t)linkCount, &of, &regions.ends);
+    KIRI_TIMES_WHILE(ok, k, linkCount) {
+        of.data[2 * k] = links[k].i;
+        of.data[2 * k + 1] = links[k].j;
+    }
+    if (ok) {
+        kiriSpans_Group(of.data, of.count, regions.spans.data, sizeof(kiriSpan), frameCount, regions.ends.data);
+    }
     KIRI_TIMES_WHILE(ok, i, frameCount) {
         const kiriAreaElement membrane = { 0.0, LEAN_PENALTY, 0, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1 };
         const kiriAreaElement director = { 0.0, 0.0, 0, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
         ok = AddRegionElement(elements, &regions, i, membrane, true) &&
              (planar || AddRegionElement(elements, &regions, i, director, false));
     }
-    kiriArray_Release(memory, &regions.start);
-    kiriArray_Release(memory, &regions.links);
+    kiriArray_Release(memory, &regions.spans);
+    kiriArray_Release(memory, &regions.ends);
+    kiriArray_Release(memory, &of);
     return ok;
 }
 

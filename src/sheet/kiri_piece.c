@@ -347,32 +347,11 @@ bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatti
 bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCount, const int32_t* pieces,
                          int32_t count)
 {
-    if (!kiriArray_Resize(memory, &list->spans, pieceCount)) {
+    if (!kiriArray_Resize(memory, &list->spans, pieceCount) || !kiriArray_Reserve(memory, &list->items, count)) {
         return false;
     }
-    kiriSpan* spans = list->spans.data;
-    int32_t listed = 0;
-    memset(spans, 0, sizeof(kiriSpan) * (size_t)pieceCount);
-    KIRI_TIMES(i, count) {
-        KIRI_ASSERT(pieces[i] >= KIRI_NONE && pieces[i] < pieceCount);
-        if (pieces[i] != KIRI_NONE) {
-            spans[pieces[i]].count += 1;
-        }
-    }
-    KIRI_TIMES(p, pieceCount) {
-        spans[p].first = listed;
-        listed += spans[p].count;
-        spans[p].count = 0;
-    }
-    if (!kiriArray_Resize(memory, &list->items, listed)) {
-        return false;
-    }
-    KIRI_TIMES(i, count) {
-        if (pieces[i] != KIRI_NONE) {
-            kiriSpan* span = &spans[pieces[i]];
-            list->items.data[span->first + span->count++] = i;
-        }
-    }
+    list->items.count =
+        kiriSpans_Group(pieces, count, list->spans.data, sizeof(kiriSpan), pieceCount, list->items.data);
     return true;
 }
 
