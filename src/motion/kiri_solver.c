@@ -542,6 +542,7 @@ static void TakePins(kiriSolver* solver, const kiriIslandBody* member)
 {
     const kiriSystem* sheet = member->sheet;
     for (int32_t k = BodyOfMember(member)->pin; k != KIRI_NONE; k = member->solver->nextPin.data[k]) {
+        KIRI_ASSERT(sheet->pins[k].frame >= 0 && sheet->pins[k].frame < sheet->frameCount);
         kiriPinRow* pin = &KIRI_NEXT(solver->pins);
         *pin = sheet->pins[k];
         pin->frame = IslandFrame(member->solver, pin->frame);
@@ -553,7 +554,8 @@ static void TakeClamps(kiriSolver* solver, const kiriIslandBody* member)
     const kiriSystem* sheet = member->sheet;
     for (int32_t k = BodyOfMember(member)->clamp; k != KIRI_NONE; k = member->solver->nextClamp.data[k]) {
         int32_t n = solver->clamps.count++;
-        KIRI_ASSERT(n < solver->clamps.capacity);
+        KIRI_ASSERT(n < solver->clamps.capacity && n < solver->clampRows.capacity);
+        KIRI_ASSERT(sheet->clamps[k].frame >= 0 && sheet->clamps[k].frame < sheet->frameCount);
         solver->clampRows.data[n] = &sheet->clamps[k];
         solver->clamps.data[n] = sheet->clamps[k];
         solver->clamps.data[n].frame = IslandFrame(member->solver, sheet->clamps[k].frame);

@@ -1290,6 +1290,7 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
 static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 {
     kiriWrench gain = { 0 }, none = gain;
+    KIRI_ASSERT(stepping->part > 0.0);
     if (reaction == NULL) {
         return;
     }

@@ -497,6 +497,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
             AddBorne(pin, &pinned->reactions[spring], sheet->pinRows.data[row++].target, perTime, &pinned->bore);
         }
     }
+    KIRI_ASSERT(row == sheet->pinRows.count && clamp == sheet->clampRows.count);
     kiriPins_SumShares(sheet);
 }
 
