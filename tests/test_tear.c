@@ -255,8 +255,8 @@ TEST(TearStopsAtACut)
    motion: work of the pins less the energy that the sheet keeps is toughness times torn section. */
 TEST(TearTakesItsEnergy)
 {
-    static const int32_t frames[] = { 32, 64, 100 };
-    for (int k = 0; k < 3; ++k) {
+    static const int32_t frames[] = { 32, 64 };
+    for (int k = 0; k < 2; ++k) {
         START_HOST(host);
         kiriSheetDef def = DefaultSheet();
         kiriTearing tearing = TearingOf(100.0);
@@ -278,13 +278,13 @@ TEST(TearTakesItsEnergy)
             pin.stiffness = 2e4f;
             OK(kiriCreatePin(host.world, sheet, &pin, &pins[side]));
         }
-        for (int32_t t = 1; t < 600 && tip[0] < 0.07; ++t) {
-            const float at[3] = { 0.004f, 0.08f + 1e-5f * (float)t, 0.0f };
+        for (int32_t t = 1; t < 300 && tip[0] < 0.07; ++t) {
+            const float at[3] = { 0.004f, 0.08f + 2e-5f * (float)t, 0.0f };
             OK(kiriPin_SetTarget(host.world, pins[1], at));
             assert_true(kiriWorld_Tick(host.world, Dt, 2) >= 0);
             OK(kiriPin_GetReaction(host.world, pins[1], force, torque));
             OK(kiriSheet_GetTotals(host.world, sheet, &totals));
-            work += 1e-5 * force[1];
+            work += 2e-5 * force[1];
             FarthestLip(&host, sheet, 1.0, 0.0, tip);
             if (first == 0.0 && tip[0] > 0.045) {
                 first = tip[0];
@@ -368,30 +368,30 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 /* A leg pulls with toughness h / 2. */
 TEST(TrouserPullsWithItsForce)
 {
-    static const double youngs[] = { 2e7, 2e9, 2e9 }, speeds[] = { 0.01, 0.01, 0.04 }, limits[] = { 1.5, 1.5, 5.0 };
-    static const int32_t frames[] = { 16, 32 };
-    for (int e = 0; e < 3; ++e) {
-        for (int k = 0; k < 2; ++k) {
-            START_HOST(host);
-            int32_t ticks = e == 2 ? 100 : 200;
-            Trouser t;
-            double tip[2], first = 0.0, sum = 0.0, most = 0.0;
-            int32_t count = 0;
-            Trouser_Start(&t, host.world, youngs[e], frames[k], 1e4);
-            for (int32_t n = 0; n < TURNS + ticks; ++n) {
-                assert_true(Trouser_Tick(&t, host.world, speeds[e]) >= 0);
-                if (n > TURNS + ticks / 4) {
-                    FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
-                    first = first == 0.0 ? tip[0] : first;
-                    sum += t.force;
-                    most = t.force > most ? t.force : most;
-                    ++count;
-                }
+    static const struct {
+        double young, speed, limit;
+        int32_t frames, ticks;
+    } pulls[] = { { 2e7, 0.01, 1.5, 32, 150 }, { 2e9, 0.01, 1.5, 16, 150 }, { 2e9, 0.04, 5.0, 16, 80 },
+                  { 2e9, 0.04, 5.0, 32, 80 } };
+    for (int e = 0; e < 4; ++e) {
+        START_HOST(host);
+        Trouser t;
+        double tip[2], first = 0.0, sum = 0.0, most = 0.0;
+        int32_t count = 0, ticks = pulls[e].ticks;
+        Trouser_Start(&t, host.world, pulls[e].young, pulls[e].frames, 1e4);
+        for (int32_t n = 0; n < TURNS + ticks; ++n) {
+            assert_true(Trouser_Tick(&t, host.world, pulls[e].speed) >= 0);
+            if (n > TURNS + ticks / 4) {
+                FarthestLip(&host, t.sheet, 1.0, 0.0, tip);
+                first = first == 0.0 ? tip[0] : first;
+                sum += t.force;
+                most = t.force > most ? t.force : most;
+                ++count;
             }
-            Host_Validate(&host);
-            assert_true(sum / count > 0.05 && sum / count < 1.0 && most < limits[e]);
-            assert_true(tip[0] - first > 0.01);
         }
+        Host_Validate(&host);
+        assert_true(sum / count > 0.05 && sum / count < 1.0 && most < pulls[e].limit);
+        assert_true(tip[0] - first > 0.01);
     }
 }
 
@@ -403,7 +403,7 @@ TEST(StampsPartAlongTheirPerforations)
 {
     static const float lines[] = { -0.01f, 0.02f,  0.085f, 0.02f, 0.05f,  -0.01f,
                                    0.05f,  0.05f, 0.025f, 0.05f, 0.025f, -0.01f };
-    enum { STAMPS = 10, HANDS = 3 };
+    enum { STAMPS = 5, HANDS = 3 };
     int32_t parted = 0;
     for (uint32_t seed = 0; seed < STAMPS; ++seed) {
         START_HOST(host);
@@ -466,32 +466,32 @@ TEST(StampsPartAlongTheirPerforations)
 TEST(RipstopsStopTears)
 {
     static const float line[] = { 0.05f, -0.01f, 0.05f, 0.21f };
-    for (int k = 0; k < 4; ++k) {
-        double forces[2], tip[2], factor = k < 2 ? 2.0 : 4.0;
-        for (int isTough = 0; isTough < 2; ++isTough) {
+    for (int k = 0; k < 2; ++k) {
+        double forces[3], tip[2];
+        for (int n = 0; n < 3; ++n) { /* factors 1, 2, 4 */
             Strip s;
-            Strip_Start(&s, k % 2 == 0 ? 32 : 64, 64);
+            Strip_Start(&s, k == 0 ? 32 : 64, 64);
             kiriTearing tearing = TearingOf(100.0);
             OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
-            OK(kiriSheet_SetTearLine(s.host.world, s.sheet, line, 2, isTough != 0 ? (float)factor : 1.0f));
+            OK(kiriSheet_SetTearLine(s.host.world, s.sheet, line, 2, (float)(1 << n)));
             CutLine(&s.host, s.sheet, -0.01f, 0.1f, 0.045f, 0.1f);
-            forces[isTough] = 0.0;
+            forces[n] = 0.0;
             tip[0] = 0.0;
-            for (int32_t t = 0; t < 3000 && tip[0] < 0.052; ++t) {
-                double force = Strip_Pull(&s, 1e-5);
-                forces[isTough] = force > forces[isTough] ? force : forces[isTough];
+            for (int32_t t = 0; t < 1500 && tip[0] < 0.052; ++t) {
+                double force = Strip_Pull(&s, 2e-5);
+                forces[n] = force > forces[n] ? force : forces[n];
                 FarthestLip(&s.host, s.sheet, 1.0, 0.0, tip);
             }
             assert_true(tip[0] > 0.052);
             Host_Stop(&s.host);
+            assert_true(fabs(forces[n] / forces[0] / sqrt(1 << n) - 1.0) < 0.1);
         }
-        assert_true(fabs(forces[1] / forces[0] / sqrt(factor) - 1.0) < 0.1);
     }
 }
 
 /* ---- State ------------------------------------------------------------------------------------------------------- */
 
-enum { BEFORE = TURNS + 60, AFTER = 60 };
+enum { BEFORE = TURNS + 60, AFTER = 30 };
 
 /* Plays a trouser into the middle of its tear. */
 static void PlayTo(Trouser* t, kiriWorld* world, int32_t ticks)
@@ -506,11 +506,11 @@ static void PlayTo(Trouser* t, kiriWorld* world, int32_t ticks)
 
 TEST(SavesAndSnapshotsGoOn)
 {
+    START_HOST(host);
+    Trouser t, copy;
+    PlayTo(&t, host.world, BEFORE);
     for (int kind = 0; kind < 2; ++kind) {
-        START_HOST(host);
         START_HOST(other);
-        Trouser t, copy;
-        PlayTo(&t, host.world, BEFORE);
         copy = t;
         World_Copy(other.world, host.world, kind == 0 ? kiriWorld_Save : kiriWorld_Snapshot);
         int32_t vertices = Host_Mesh(&host, t.sheet).vertexCount;
@@ -528,7 +528,7 @@ TEST(TearsAreReplayed)
     Tape tape;
     Trouser t;
     Tape_Start(&tape);
-    PlayTo(&t, tape.host.world, BEFORE + AFTER);
+    PlayTo(&t, tape.host.world, BEFORE);
     Tape_Stop(&tape);
     Tape_PlayAll(&tape);
 }
@@ -546,7 +546,7 @@ TEST(TearsWait)
         if (kind == 1) {
             OK(kiriWorld_SetBudget(host.world, &small));
         }
-        for (int32_t n = 0; n < 240; ++n) {
+        for (int32_t n = 0; n < 180; ++n) {
             kiriResult result = Trouser_Tick(&t, host.world, 0.02);
             assert_true(result >= 0 || (kind == 0 && result == KIRI_ERROR_MEMORY));
             if (n % 8 == 0) {
