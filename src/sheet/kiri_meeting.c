@@ -102,9 +102,8 @@ static bool TouchMixed(const kiriMeeting* meeting, const int32_t* v, const doubl
 
 static bool IsBorderEdge(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b)
 {
-    const int32_t* indices = surface->indices.data;
     KIRI_EACH(const int32_t, triangle, *near) {
-        const int32_t* v = &indices[3 * (int64_t)*triangle];
+        const int32_t* v = kiriSurface_Triangle(surface, *triangle);
         if ((v[0] == b && v[1] == a) || (v[1] == b && v[2] == a) || (v[2] == b && v[0] == a)) {
             return false;
         }
@@ -322,34 +321,6 @@ static kiriVec3 BlendOfThree(const kiriVec3 x[3], const double share[3])
     return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(share[0], x[0]), share[1], x[1]), share[2], x[2]);
 }
 
-/* Computes the barycentric coordinates of the point of a triangle nearest to p: its projection, or on a side. */
-static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
-{
-    kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(p, x[0]);
-    kiriVec3 n = kiriVec3_Cross(ab, ac);
-    double square = kiriVec3_Dot(n, n), least = KIRI_ENDLESS;
-    share[1] = kiriVec3_Dot(n, kiriVec3_Cross(to, ac)) / square;
-    share[2] = kiriVec3_Dot(n, kiriVec3_Cross(ab, to)) / square;
-    share[0] = 1.0 - share[1] - share[2];
-    if (square > 0.0 && share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0) {
-        return;
-    }
-    KIRI_EACH_CORNER(k) {
-        int next = (k + 1) % 3;
-        kiriVec3 along = kiriVec3_Sub(x[next], x[k]);
-        double side = kiriVec3_Dot(along, along),
-               t = side > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(p, x[k]), along) / side : 0.0;
-        t = kiriClamp(t, 0.0, 1.0);
-        double far = kiriVec3_Distance(kiriVec3_AddScaled(kiriVec3_Scale(1.0 - t, x[k]), t, x[next]), p);
-        if (far < least) {
-            least = far;
-            share[k] = 1.0 - t;
-            share[next] = t;
-            share[3 - k - next] = 0.0;
-        }
-    }
-}
-
 /* Finds the point of a triangle nearest to the axis of a round obstacle, by alternating projections. Both are convex,
    so they converge. */
 static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
@@ -357,7 +328,7 @@ static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
     enum { TURNS = 24 };
     kiriVec3 onAxis = { 0 };
     KIRI_TIMES(turn, TURNS) {
-        NearestOfTriangle(x, onAxis, share);
+        kiriTriangle_Nearest(x, onAxis, share);
         double z = BlendOfThree(x, share).z;
         onAxis.z = kiriClamp(z, -half, half);
         if (half <= 0.0) {
@@ -464,17 +435,8 @@ typedef struct EdgePoint {
 /* Intersects the line of the point with a triangle. Returns false if it misses. */
 static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
 {
-    kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(point->at, x[0]);
-    kiriVec3 across = kiriVec3_Cross(point->out, ac), other = kiriVec3_Cross(to, ab);
-    double det = kiriVec3_Dot(ab, across);
-    if (!(fabs(det) > 0.0)) {
-        return false;
-    }
-    share[1] = kiriVec3_Dot(to, across) / det;
-    share[2] = kiriVec3_Dot(point->out, other) / det;
-    share[0] = 1.0 - share[1] - share[2];
-    *height = kiriVec3_Dot(ac, other) / det;
-    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0 && *height > -point->below && *height < point->above;
+    return kiriTriangle_Cross(x, point->at, point->out, height, share) && *height > -point->below &&
+           *height < point->above;
 }
 
 /* Returns true if the normal can be of a tangent plane at the edge: it opposes none of the faces. */
@@ -508,26 +470,11 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
            TouchMixed(meeting, v, share, 3, at, normal, above, meeting->near - meeting->gap, point->at, gap, touch);
 }
 
-/* Returns true if the line of the point meets a box (slab test). */
 static bool MeetsLine(const void* context, const kiriBox* box)
 {
     const EdgePoint* point = context;
-    const double at[3] = { point->at.x, point->at.y, point->at.z },
-                 out[3] = { point->out.x, point->out.y, point->out.z };
-    const double lower[3] = { box->lower.x, box->lower.y, box->lower.z };
-    const double upper[3] = { box->upper.x, box->upper.y, box->upper.z };
     double from = -point->below, to = point->above;
-    KIRI_TIMES(k, 3) {
-        double low = lower[k] - at[k] - LINE_SLACK, high = upper[k] - at[k] + LINE_SLACK;
-        if (fabs(out[k]) < 1e-12) {
-            to = low > 0.0 || high < 0.0 ? from - 1.0 : to;
-            continue;
-        }
-        double enter = (out[k] > 0.0 ? low : high) / out[k], leave = (out[k] > 0.0 ? high : low) / out[k];
-        from = kiriMax(enter, from);
-        to = kiriMin(leave, to);
-    }
-    return from <= to;
+    return kiriBox_Clip(box, LINE_SLACK, point->at, point->out, &from, &to);
 }
 
 /* Lists the triangles that the line of the point meets, ascending, so that layers get the same keys in each tick. */
@@ -611,28 +558,6 @@ static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, i
     return ok;
 }
 
-/* Clips the steps of an edge to the sheet's box. */
-static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, int32_t* first, int32_t* last)
-{
-    kiriBox box = kiriBounds_All(meeting->sheet->seen.bounds);
-    const double lower[3] = { box.lower.x, box.lower.y, box.lower.z },
-                 upper[3] = { box.upper.x, box.upper.y, box.upper.z };
-    const double a[3] = { from.x, from.y, from.z }, d[3] = { step.x, step.y, step.z };
-    double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->square;
-    KIRI_TIMES(k, 3) {
-        double enter = lower[k] - margin - a[k], leave = upper[k] + margin - a[k];
-        if (fabs(d[k]) * (end - start + 1.0) < 1e-9) {
-            end = enter > 0.0 || leave < 0.0 ? start - 1.0 : end;
-            continue;
-        }
-        double s = d[k] > 0.0 ? enter / d[k] : leave / d[k], t = d[k] > 0.0 ? leave / d[k] : enter / d[k];
-        start = kiriMax(s, start);
-        end = kiriMin(t, end);
-    }
-    *first = start <= end ? (int32_t)start : 0;
-    *last = start <= end ? (int32_t)end : -1;
-}
-
 /* Touches a straight edge at the middles of steps about one grid square long; its ends are corners. An infinite edge
    has MOST_POINTS steps. */
 static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
@@ -644,13 +569,17 @@ static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* ed
         from.z = -0.5 * way.z;
     }
     double wanted = kiriVec3_Length(way) / meeting->square;
-    int32_t count = wanted < MOST_POINTS - 1 ? (int32_t)wanted + 1 : MOST_POINTS, first = 0, last = count - 1;
+    int32_t count = wanted < MOST_POINTS - 1 ? (int32_t)wanted + 1 : MOST_POINTS;
+    double first = 0.0, last = count - 1.0, margin = meeting->reach + meeting->gap + meeting->square;
     kiriVec3 step = kiriVec3_Scale(1.0 / count, way);
     from = kiriVec3_AddScaled(from, 0.5, step);
-    ClipEdge(meeting, kiriObstacle_PointToWorld(meeting->obstacle, from), kiriObstacle_ToWorld(meeting->obstacle, step),
-             &first, &last);
+    kiriBox box = kiriBounds_All(meeting->sheet->seen.bounds);
     bool ok = true;
-    for (int32_t i = first; ok && i <= last; ++i) {
+    if (!kiriBox_Clip(&box, margin, kiriObstacle_PointToWorld(meeting->obstacle, from),
+                      kiriObstacle_ToWorld(meeting->obstacle, step), &first, &last)) {
+        return true;
+    }
+    for (int32_t i = (int32_t)first; ok && i <= (int32_t)last; ++i) {
         EdgePoint point = MakePoint(meeting, kiriVec3_AddScaled(from, i, step), edge->faces, 2, edge->thinnest);
         point.item = (uint32_t)index * MOST_POINTS + (uint32_t)i;
         ok = TouchPoint(meeting, &point);

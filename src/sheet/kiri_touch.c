@@ -723,43 +723,21 @@ kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
     return found != NULL ? found->force : kiriVec3_Make(0.0, 0.0, 0.0);
 }
 
-static bool IsRowBefore(const void* context, int32_t a, int32_t b)
-{
-    const kiriTouches* touches = context;
-    uint64_t first = touches->rows.data[a].key, second = touches->rows.data[b].key;
-    return first < second || (first == second && a < b);
-}
-
-static void SortForces(kiriTouches* touches)
-{
-    KIRI_ASSERT(touches->order.capacity >= touches->rows.count);
-    KIRI_ASSERT(touches->last.forces.capacity >= touches->rows.count);
-    touches->order.count = touches->last.forces.count = 0;
-    KIRI_EACH_INDEX(i, touches->rows) {
-        if (kiriVec3_Dot(touches->rows.data[i].force, touches->rows.data[i].normal) > 0.0) {
-            KIRI_NEXT(touches->order) = i;
-        }
-    }
-    kiriSort(touches->order.data, touches->order.count, IsRowBefore, touches);
-    KIRI_EACH(const int32_t, at, touches->order) {
-        const kiriContactRow* row = &touches->rows.data[*at];
-        kiriTouchForce force = { row->key, row->force, row->normal };
-        KIRI_NEXT(touches->last.forces) = force;
-    }
-}
-
 void kiriTouches_End(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
-    SortForces(touches);
+    const kiriVec3 none = { 0 };
     KIRI_ASSERT(touches->last.touches.capacity >= touches->found.count);
-    touches->last.touches.count = touches->last.given = 0;
+    touches->last.touches.count = touches->last.forces.count = touches->last.given = 0;
     KIRI_EACH(const kiriTouch, touch, touches->found) {
         if (touch->row != KIRI_NONE) {
-            KIRI_NEXT(touches->last.touches) = *touch;
-            touches->last.given += kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST);
+            const kiriContactRow* row = &touches->rows.data[touch->row];
+            kiriTouch kept = *touch;
+            kept.normal = row->normal;
+            kiriTouchMemory_Add(&touches->last, &kept, kiriVec3_Dot(row->force, row->normal) > 0.0 ? row->force : none);
         }
     }
+    kiriTouchMemory_SortForces(&touches->last, 0, &touches->order);
 }
 
 void kiriTouches_Clear(kiriSheetData* sheet)

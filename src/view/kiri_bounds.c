@@ -491,53 +491,89 @@ typedef struct Ray {
     double slack;    /* by which boxes are enlarged: a hit is rounded, and the detail layer is beside the skin */
 } Ray;
 
-/* Cuts the stretch of the ray to the space between two planes. Returns false if nothing is left. */
-static bool Clip(double origin, double direction, double low, double high, double* from, double* to)
+bool kiriBox_Clip(const kiriBox* box, double by, kiriVec3 from, kiriVec3 along, double* low, double* high)
 {
-    if (direction == 0.0) {
-        return origin >= low && origin <= high;
+    const double at[3] = { from.x, from.y, from.z }, way[3] = { along.x, along.y, along.z };
+    const double lower[3] = { box->lower.x, box->lower.y, box->lower.z };
+    const double upper[3] = { box->upper.x, box->upper.y, box->upper.z };
+    KIRI_TIMES(k, 3) {
+        double below = lower[k] - by - at[k], above = upper[k] + by - at[k];
+        if (way[k] == 0.0) {
+            *high = below > 0.0 || above < 0.0 ? *low - 1.0 : *high;
+            continue;
+        }
+        double enter = (way[k] > 0.0 ? below : above) / way[k], leave = (way[k] > 0.0 ? above : below) / way[k];
+        *low = kiriMax(enter, *low);
+        *high = kiriMin(leave, *high);
     }
-    double a = (low - origin) / direction, b = (high - origin) / direction;
-    double enter = kiriMin(a, b), leave = kiriMax(b, a);
-    *from = kiriMax(enter, *from);
-    *to = kiriMin(leave, *to);
-    return *from <= *to;
+    return *low <= *high;
 }
 
 static bool MeetsRay(const void* context, const kiriBox* box)
 {
     const Ray* ray = context;
-    kiriVec3 o = ray->origin, d = ray->direction, low = box->lower, high = box->upper;
-    double s = ray->slack, from = -s, to = ray->distance + s;
-    return Clip(o.x, d.x, low.x - s, high.x + s, &from, &to) && Clip(o.y, d.y, low.y - s, high.y + s, &from, &to) &&
-           Clip(o.z, d.z, low.z - s, high.z + s, &from, &to);
+    double from = -ray->slack, to = ray->distance + ray->slack;
+    return kiriBox_Clip(box, ray->slack, ray->origin, ray->direction, &from, &to);
 }
 
-typedef struct RayHit {
-    double distance, b, c; /* along the ray; shares of the second and third corner */
-} RayHit;
-
-/* Intersects a ray and a triangle (Moeller and Trumbore 1997). */
-static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, RayHit* hit)
+void kiriTriangle_Nearest(const kiriVec3 corner[3], kiriVec3 p, double share[3])
 {
+    /* By the Voronoi regions of corners, sides and the inside (Ericson, Real-Time Collision Detection, 5.1.5). */
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
-    kiriVec3 p = kiriVec3_Cross(ray->direction, ac);
-    double determinant = kiriVec3_Dot(ab, p);
-    if (determinant == 0.0) {
+    double d[3][2], on[3];
+    KIRI_TIMES(k, 3) {
+        kiriVec3 to = kiriVec3_Sub(p, corner[k]);
+        d[k][0] = kiriVec3_Dot(ab, to);
+        d[k][1] = kiriVec3_Dot(ac, to);
+    }
+    on[0] = d[1][0] * d[2][1] - d[2][0] * d[1][1];
+    on[1] = d[2][0] * d[0][1] - d[0][0] * d[2][1];
+    on[2] = d[0][0] * d[1][1] - d[1][0] * d[0][1];
+    double ahead = d[1][1] - d[1][0], back = d[2][0] - d[2][1], sum = on[0] + on[1] + on[2];
+    share[0] = share[1] = share[2] = 0.0;
+    if (d[0][0] <= 0.0 && d[0][1] <= 0.0) {
+        share[0] = 1.0;
+    } else if (d[1][0] >= 0.0 && ahead <= 0.0) {
+        share[1] = 1.0;
+    } else if (d[2][1] >= 0.0 && back <= 0.0) {
+        share[2] = 1.0;
+    } else if (on[2] <= 0.0 && d[0][0] >= 0.0 && d[1][0] <= 0.0) {
+        share[1] = d[0][0] / (d[0][0] - d[1][0]);
+        share[0] = 1.0 - share[1];
+    } else if (on[1] <= 0.0 && d[0][1] >= 0.0 && d[2][1] <= 0.0) {
+        share[2] = d[0][1] / (d[0][1] - d[2][1]);
+        share[0] = 1.0 - share[2];
+    } else if (on[0] <= 0.0 && ahead >= 0.0 && back >= 0.0) {
+        share[2] = ahead / (ahead + back);
+        share[1] = 1.0 - share[2];
+    } else {
+        share[0] = on[0] / sum;
+        share[1] = on[1] / sum;
+        share[2] = on[2] / sum;
+    }
+}
+
+bool kiriTriangle_Cross(const kiriVec3 corner[3], kiriVec3 from, kiriVec3 along, double* way, double share[3])
+{
+    /* Moeller and Trumbore 1997 */
+    kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
+    kiriVec3 to = kiriVec3_Sub(from, corner[0]), across = kiriVec3_Cross(along, ac), other = kiriVec3_Cross(to, ab);
+    double determinant = kiriVec3_Dot(ab, across);
+    if (!(fabs(determinant) > 0.0)) {
         return false;
     }
-    kiriVec3 s = kiriVec3_Sub(ray->origin, corner[0]), q = kiriVec3_Cross(s, ab);
-    hit->b = kiriVec3_Dot(s, p) / determinant;
-    hit->c = kiriVec3_Dot(ray->direction, q) / determinant;
-    hit->distance = kiriVec3_Dot(ac, q) / determinant;
-    return hit->b >= 0.0 && hit->c >= 0.0 && hit->b + hit->c <= 1.0 && hit->distance >= 0.0;
+    share[1] = kiriVec3_Dot(to, across) / determinant;
+    share[2] = kiriVec3_Dot(along, other) / determinant;
+    share[0] = 1.0 - share[1] - share[2];
+    *way = kiriVec3_Dot(ac, other) / determinant;
+    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0;
 }
 
 typedef struct RaySearch {
     const kiriSurface* surface;
     Ray ray;
     int32_t triangle; /* the first hit so far, or KIRI_NONE */
-    RayHit hit;
+    double share[3];
 } RaySearch;
 
 static void GetDrawnCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
@@ -553,14 +589,13 @@ static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
     RaySearch* search = context;
     KIRI_TIMES(i, count) {
         kiriVec3 corner[3];
-        RayHit hit;
+        double way, share[3];
         GetDrawnCorners(search->surface, triangles[i], corner);
-        if (HitTriangle(corner, &search->ray, &hit) &&
-            (hit.distance < search->ray.distance ||
-             (hit.distance == search->ray.distance && triangles[i] > search->triangle))) {
-            search->ray.distance = hit.distance;
+        if (kiriTriangle_Cross(corner, search->ray.origin, search->ray.direction, &way, share) && way >= 0.0 &&
+            (way < search->ray.distance || (way == search->ray.distance && triangles[i] > search->triangle))) {
+            search->ray.distance = way;
             search->triangle = triangles[i];
-            search->hit = hit;
+            memcpy(search->share, share, sizeof(share));
         }
     }
     return true;
@@ -569,7 +604,7 @@ static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
 void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction,
                          double maxDistance, kiriHit* hit)
 {
-    RaySearch search = { surface, { origin, direction, maxDistance, 0.0 }, KIRI_NONE, { 0.0, 0.0, 0.0 } };
+    RaySearch search = { surface, { origin, direction, maxDistance, 0.0 }, KIRI_NONE, { 0.0 } };
     KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
     if (kiriBounds_IsFresh(bounds, surface)) {
@@ -591,17 +626,16 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     kiriVec3 corner[3];
     GetDrawnCorners(surface, search.triangle, corner);
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
-    const int32_t* v = &surface->indices.data[3 * (size_t)search.triangle];
-    const double shares[3] = { 1.0 - search.hit.b - search.hit.c, search.hit.b, search.hit.c };
+    const int32_t* v = kiriSurface_Triangle(surface, search.triangle);
     kiriVec2 rest = surface->origin;
     KIRI_TIMES(k, 3) {
-        rest = kiriVec2_AddScaled(rest, shares[k], surface->rest.data[v[k]]);
+        rest = kiriVec2_AddScaled(rest, search.share[k], surface->rest.data[v[k]]);
     }
     hit->restPoint[0] = (float)rest.x;
     hit->restPoint[1] = (float)rest.y;
     kiriVec3_Store(hit->position,
-                   kiriVec3_AddScaled(kiriVec3_AddScaled(corner[0], search.hit.b, ab), search.hit.c, ac));
+                   kiriVec3_AddScaled(kiriVec3_AddScaled(corner[0], search.share[1], ab), search.share[2], ac));
     kiriVec3_Store(hit->normal, kiriVec3_Normalize(kiriVec3_Cross(ab, ac)));
-    hit->distance = (float)search.hit.distance;
+    hit->distance = (float)search.ray.distance;
     hit->triangle = search.triangle;
 }

@@ -63,8 +63,17 @@ static inline void kiriBox_Add(kiriBox* box, kiriVec3 at)
 /* Returns the distance from a point to the farthest corner of the box. */
 double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
 
+/* Cuts the stretch [*low, *high] of a line to the box, enlarged by `by` (m). Returns false if nothing is left. */
+bool kiriBox_Clip(const kiriBox* box, double by, kiriVec3 from, kiriVec3 along, double* low, double* high);
+
 /* Gets the corners of a triangle in world space. */
 void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3]);
+
+/* Computes the barycentric coordinates of the point of a triangle that is nearest to p. */
+void kiriTriangle_Nearest(const kiriVec3 corner[3], kiriVec3 p, double share[3]);
+
+/* Intersects a line with a triangle: the way along the line, and barycentric coordinates. Returns false if it misses. */
+bool kiriTriangle_Cross(const kiriVec3 corner[3], kiriVec3 from, kiriVec3 along, double* way, double share[3]);
 
 /* Returns true if the boxes fit the surface. All searches below need that. */
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);

@@ -503,52 +503,6 @@ static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiri
 #define FLAT_TRIANGLE 0.25  /* of the distance that pieces keep: maximum height of a probe beside a lip, */
 #define INSIDE_TRIANGLE 0.5 /* and maximum distance of its place from the border */
 
-/* Barycentric coordinates of a place on a triangle. */
-typedef struct Place {
-    double share[3];
-} Place;
-
-/* Returns a place on edge 0 to 2, at part t of it. */
-static Place OnEdge(int edge, double t)
-{
-    Place place = { { 0.0 } };
-    place.share[edge] = 1.0 - t;
-    place.share[(edge + 1) % 3] = t;
-    return place;
-}
-
-/* Returns the nearest place, by the Voronoi regions of corners, edges and the inside (Ericson, Real-Time Collision
-   Detection, 5.1.5). */
-static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
-{
-    kiriVec3 ab = kiriVec3_Sub(b, a), ac = kiriVec3_Sub(c, a);
-    kiriVec3 ap = kiriVec3_Sub(p, a), bp = kiriVec3_Sub(p, b), cp = kiriVec3_Sub(p, c);
-    double d1 = kiriVec3_Dot(ab, ap), d2 = kiriVec3_Dot(ac, ap);
-    double d3 = kiriVec3_Dot(ab, bp), d4 = kiriVec3_Dot(ac, bp);
-    double d5 = kiriVec3_Dot(ab, cp), d6 = kiriVec3_Dot(ac, cp);
-    double onA = d3 * d6 - d5 * d4, onB = d5 * d2 - d1 * d6, onC = d1 * d4 - d3 * d2;
-    if (d1 <= 0.0 && d2 <= 0.0) {
-        return OnEdge(0, 0.0);
-    }
-    if (d3 >= 0.0 && d4 <= d3) {
-        return OnEdge(1, 0.0);
-    }
-    if (d6 >= 0.0 && d5 <= d6) {
-        return OnEdge(2, 0.0);
-    }
-    if (onC <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-        return OnEdge(0, d1 / (d1 - d3));
-    }
-    if (onB <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-        return OnEdge(2, 1.0 - d2 / (d2 - d6));
-    }
-    if (onA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        return OnEdge(1, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    double sum = onA + onB + onC;
-    return (Place){ { onA / sum, onB / sum, onC / sum } };
-}
-
 /* Returns the distance of the place from the border, m: from border edges of its triangle, and from corners at which
    other triangles have border edges. HUGE_VAL if there are none. */
 static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
@@ -578,12 +532,13 @@ static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, 
     const kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 x[3], p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
     kiriSurface_Corners(surface, triangle, x);
-    Place place = NearestOnTriangle(p, x[0], x[1], x[2]);
-    kiriVec3 off = kiriVec3_Sub(p, kiriSurface_Blend(surface, kiriSurface_Triangle(surface, triangle), place.share));
+    double share[3];
+    kiriTriangle_Nearest(x, p, share);
+    kiriVec3 off = kiriVec3_Sub(p, kiriSurface_Blend(surface, kiriSurface_Triangle(surface, triangle), share));
     double squared = kiriVec3_Dot(off, off);
     if (squared <= most) {
         near->triangle = triangle;
-        memcpy(near->share, place.share, sizeof(near->share));
+        memcpy(near->share, share, sizeof(share));
         near->normal = near->body != near->other
                            ? kiriTriangle_SkinNormal(sheet, triangle, near->share)
                            : kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
@@ -603,27 +558,6 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
            (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
 }
 
-typedef struct Looking {
-    kiriNear* near;
-    const kiriBody* bodies;
-    double least; /* m^2 */
-    bool found;
-} Looking;
-
-static double LookAtTriangle(void* context, int32_t triangle)
-{
-    Looking* looking = context;
-    kiriNear one = *looking->near;
-    double squared = Measure(&one, looking->bodies, triangle, looking->least);
-    bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
-    if (squared < looking->least || isLower) {
-        looking->least = squared;
-        *looking->near = one;
-        looking->found = true;
-    }
-    return looking->least;
-}
-
 static uint64_t NameOf(kiriFrame a, kiriFrame b)
 {
     return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
@@ -640,27 +574,128 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
     return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
-/* Finds the places of another body that are nearest to probes of a body, within `reach`. Leaves out places on the
-   border if the probe lies beside the other body. At equal distances the lowest triangle counts. A body that
-   was the lower one in the last tick needs some probes alone. Bounds must be up to date. Fails on out of memory. */
-static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
+#define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
+#define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other */
+
+/* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
+   or the same frames carry them. Zero if places at this distance are beside each other. */
+static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, double off)
+{
+    const kiriSkin* skin = &sheet->vertexSkin;
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* corners = kiriSurface_Triangle(surface, near->triangle);
+    kiriSpan own = skin->spans.data[near->vertex];
+    kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
+    double shared = 0.0;
+    KIRI_TIMES(c, 3) {
+        apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
+    }
+    double rest = sqrt(kiriVec2_Dot(apart, apart));
+    if (off >= OPEN * rest) {
+        return 0.0;
+    }
+    KIRI_FROM_TO(k, own.first, own.first + own.count) {
+        double there = 0.0;
+        KIRI_TIMES(c, 3) {
+            kiriSpan other = skin->spans.data[corners[c]];
+            KIRI_FROM_TO(n, other.first, other.first + other.count) {
+                const kiriSampleWeight* weight = &skin->weights.data[n];
+                there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
+            }
+        }
+        shared += kiriMin(skin->weights.data[k].value, there);
+    }
+    double most = kiriMin(sheet->settings.foldThickness, 0.5 * OPEN * rest);
+    return most * kiriClamp(2.0 * (1.0 - shared / MOST_SHARED), 0.0, 1.0);
+}
+
+/* A search for places near a probe of a body, or for triangles that an edge crosses. A fold searches its own body. */
+typedef struct Search {
+    kiriWorld* world;
+    const kiriBody *body, *other;
+    kiriVec3 ahead;     /* normal at the probe */
+    kiriNear found[2];  /* nearest to the probe; of a fold: in front, and behind */
+    double least[2];    /* m^2: of their distance; or of half of the edge */
+    int32_t edge, a, b; /* half-edge and its ends */
+    bool ok;
+} Search;
+
+/* Keeps the nearest place. At equal distances the lowest triangle counts. */
+static double LookAtPlace(void* context, int32_t triangle)
+{
+    Search* search = context;
+    kiriNear one = search->found[0];
+    bool isFold = search->body == search->other;
+    double squared = Measure(&one, search->world->pairs.bodies.data, triangle,
+                             kiriMax(search->least[0], search->least[1]));
+    double across = one.height * one.height;
+    int side = isFold && !(one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0);
+    bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
+    if (squared < search->least[side] || isFirst) {
+        bool isEdge = one.share[0] <= 0.0 || one.share[1] <= 0.0 || one.share[2] <= 0.0;
+        double aslant = isEdge && squared > across ? sqrt((squared - across) / across) / STEEP : 0.0;
+        if (isFold) { /* less beside the border, and where a neighbor is nearer */
+            one.kept = FoldDistance(search->body->sheet, &one, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
+        }
+        if (one.kept > 0.0) {
+            search->least[side] = squared;
+            search->found[side] = one;
+        }
+    }
+    return kiriMax(search->least[0], search->least[1]);
+}
+
+static void MarkFold(kiriSheetData* sheet, const kiriNear* near, int layer)
+{
+    KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
+    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, near->triangle);
+    int place = near->height >= 0.0 ? KIRI_FOLD_ABOVE : KIRI_FOLD_BELOW;
+    sheet->probes.marks.data[near->vertex] |= (uint8_t)(KIRI_FOLD_NEAR | place << layer);
+    KIRI_TIMES(k, 3) {
+        sheet->probes.marks.data[corners[k]] |= near->share[k] > 0.0 ? KIRI_FOLD_NEAR : 0;
+    }
+}
+
+/* Finds the places of another body that are nearest to probes of a body, within `reach`; of the same body, in front and
+   behind. Leaves out places on the border if the probe lies beside the other body. A body that was the lower one in the
+   last tick needs some probes alone. Bounds must be up to date. Fails on out of memory. */
+static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach, double dt)
 {
     kiriPairs* pairs = &world->pairs;
     const kiriBody *bodies = pairs->bodies.data, *a = &bodies[body], *b = &bodies[other];
-    kiriIndexSpan probes = ProbesOf(a);
+    kiriProbes* probes = &a->sheet->probes;
+    kiriSpan span = kiriPieceRow_Of(&probes->list, a->piece);
     kiriGroup piece = { b->sheet->probes.vertexPiece.data, b->piece };
     kiriBox box = Widened(&b->box, reach);
+    kiriVec3 mean = kiriVec3_Scale(1.0 / a->mass, a->momentum);
     const kiriTouchingPair* old = FindOld(pairs, a->id, b->id);
-    bool isLower = old != NULL && old->lower == a->id, ok = true;
-    KIRI_TIMES_WHILE(ok, i, probes.count) {
-        kiriNear near = { .body = body, .other = other, .vertex = probes.data[i], .triangle = KIRI_NONE };
-        Looking looking = { &near, bodies, reach * reach, false };
-        kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
-        if (kiriBox_Meet(&box, &(kiriBox){ x, x }) && (!isLower || IsProbeNeeded(a->sheet, b->sheet, near.vertex))) {
-            kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, looking.least, LookAtTriangle,
-                               &looking);
-            ok = !looking.found || IsBeside(&near, bodies, KeptDistance(a, b), looking.least) ||
-                 kiriArray_Push(&world->memory, &pairs->nears, near);
+    bool isLower = old != NULL && old->lower == a->id, isFold = a == b, ok = true;
+    Search search = { .world = world, .body = a, .other = b };
+    KIRI_ASSERT(a->mass > 0.0 && probes->velocities.count == probes->list.items.count);
+    KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
+        kiriNear none = { .body = body, .other = other, .vertex = probes->list.items.data[i], .triangle = KIRI_NONE };
+        kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, none.vertex);
+        if (!kiriBox_Meet(&box, &(kiriBox){ x, x }) || (isLower && !IsProbeNeeded(a->sheet, b->sheet, none.vertex))) {
+            continue;
+        }
+        double own = isFold ? reach + dt * kiriVec3_Distance(probes->velocities.data[i], mean) : reach;
+        none.kept = KeptDistance(a, b);
+        search.found[0] = search.found[1] = none;
+        search.least[0] = own * own;
+        search.least[1] = isFold ? own * own : 0.0;
+        if (isFold) {
+            search.ahead = kiriVertex_SkinNormal(a->sheet, none.vertex);
+            probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
+        }
+        kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, own * own, LookAtPlace, &search);
+        KIRI_TIMES_WHILE(ok, k, 2) {
+            const kiriNear* near = &search.found[k];
+            if (near->triangle != KIRI_NONE && (isFold || !IsBeside(near, bodies, near->kept, search.least[k]))) {
+                if (isFold) {
+                    MarkFold(a->sheet, near, k);
+                }
+                ok = kiriArray_Push(&world->memory, &pairs->nears, *near);
+            }
         }
     }
     return ok;
@@ -785,8 +820,8 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
     }
     kiriSurface_NeedNormals(&one->sheet->seen.surface);
     kiriSurface_NeedNormals(&other->sheet->seen.surface);
-    if (!UpdateBounds(one->sheet) || !UpdateBounds(other->sheet) || !FindNears(world, a, b, reach) ||
-        !FindNears(world, b, a, reach)) {
+    if (!UpdateBounds(one->sheet) || !UpdateBounds(other->sheet) || !FindNears(world, a, b, reach, dt) ||
+        !FindNears(world, b, a, reach, dt)) {
         return false;
     }
     nears.count = pairs->nears.count - nears.first;
@@ -845,135 +880,6 @@ static bool LookAtAll(kiriWorld* world, double dt)
 
 #define GRAZING 0.2      /* minimum sine of the angle between an edge and a triangle that it crosses */
 #define LEAST_TURN 0.2     /* change of the length of the line per length of a move: less gives no direction */
-#define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
-#define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other */
-
-/* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
-   or the same frames carry them. Zero if places at this distance are beside each other. */
-static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, double off)
-{
-    const kiriSkin* skin = &sheet->vertexSkin;
-    const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* corners = kiriSurface_Triangle(surface, near->triangle);
-    kiriSpan own = skin->spans.data[near->vertex];
-    kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
-    double shared = 0.0;
-    KIRI_TIMES(c, 3) {
-        apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
-    }
-    double rest = sqrt(kiriVec2_Dot(apart, apart));
-    if (off >= OPEN * rest) {
-        return 0.0;
-    }
-    KIRI_FROM_TO(k, own.first, own.first + own.count) {
-        double there = 0.0;
-        KIRI_TIMES(c, 3) {
-            kiriSpan other = skin->spans.data[corners[c]];
-            KIRI_FROM_TO(n, other.first, other.first + other.count) {
-                const kiriSampleWeight* weight = &skin->weights.data[n];
-                there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
-            }
-        }
-        shared += kiriMin(skin->weights.data[k].value, there);
-    }
-    double most = kiriMin(sheet->settings.foldThickness, 0.5 * OPEN * rest);
-    return most * kiriClamp(2.0 * (1.0 - shared / MOST_SHARED), 0.0, 1.0);
-}
-
-/* A search in a piece that folds. */
-typedef struct FoldSearch {
-    kiriWorld* world;
-    kiriSheetData* sheet;
-    const kiriBody* body;
-    kiriVec3 ahead;   /* normal at the probe */
-    kiriNear found[2]; /* of the probe: in front, and behind */
-    double least[2];  /* m^2: of their distance; or of half of the edge */
-    int32_t edge, a, b; /* half-edge and its ends */
-    bool ok;
-} FoldSearch;
-
-static double LookAtLayer(void* context, int32_t triangle)
-{
-    FoldSearch* search = context;
-    kiriNear one = search->found[0];
-    double squared = Measure(&one, search->body, triangle, kiriMax(search->least[0], search->least[1]));
-    double across = one.height * one.height;
-    int side = one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0 ? 0 : 1;
-    bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
-    if (squared < search->least[side] || isFirst) {
-        bool isEdge = one.share[0] <= 0.0 || one.share[1] <= 0.0 || one.share[2] <= 0.0;
-        double aslant = isEdge && squared > across ? sqrt((squared - across) / across) / STEEP : 0.0;
-        /* Less beside the border, and where a neighbor is nearer. */
-        one.kept = FoldDistance(search->sheet, &one, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
-        if (one.kept > 0.0) {
-            search->least[side] = squared;
-            search->found[side] = one;
-        }
-    }
-    return kiriMax(search->least[0], search->least[1]);
-}
-
-static void MarkFold(kiriSheetData* sheet, const kiriNear* near)
-{
-    KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
-    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, near->triangle);
-    sheet->probes.marks.data[near->vertex] |= KIRI_FOLD_NEAR;
-    KIRI_TIMES(k, 3) {
-        sheet->probes.marks.data[corners[k]] |= near->share[k] > 0.0 ? KIRI_FOLD_NEAR : 0;
-    }
-}
-
-/* Finds the near layers of all probes. */
-static bool FindLayers(FoldSearch* search, double dt)
-{
-    kiriWorld* world = search->world;
-    kiriSheetData* sheet = search->sheet;
-    const kiriProbes* probes = &sheet->probes;
-    kiriSpan span = kiriPieceRow_Of(&probes->list, search->body->piece);
-    kiriGroup group = { probes->vertexPiece.data, search->body->piece };
-    kiriVec3 mean = kiriVec3_Scale(1.0 / search->body->mass, search->body->momentum);
-    double falling = dt * kiriVec3_Length(world->gravity), stir = kiriMax(falling, search->body->stir);
-    bool ok = true;
-    KIRI_ASSERT(search->body->mass > 0.0 && probes->velocities.count == probes->list.items.count);
-    KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
-        double speed = kiriVec3_Distance(probes->velocities.data[i], mean) + stir;
-        double reach = 2.0 * sheet->settings.foldThickness + dt * speed;
-        kiriNear none = { .vertex = probes->list.items.data[i], .triangle = KIRI_NONE };
-        search->found[0] = search->found[1] = none;
-        search->least[0] = search->least[1] = reach * reach;
-        search->ahead = kiriVertex_SkinNormal(sheet, none.vertex);
-        kiriBounds_Nearest(sheet->seen.bounds, &sheet->seen.surface, group,
-                           kiriSurface_At(&sheet->seen.surface, none.vertex), reach * reach, LookAtLayer, search);
-        probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
-        KIRI_TIMES_WHILE(ok, k, 2) {
-            if (search->found[k].triangle != KIRI_NONE) {
-                int place = search->found[k].height >= 0.0 ? KIRI_FOLD_ABOVE : KIRI_FOLD_BELOW;
-                MarkFold(sheet, &search->found[k]);
-                probes->marks.data[none.vertex] |= (uint8_t)(place << k);
-                ok = kiriArray_Push(&world->memory, &world->pairs.nears, search->found[k]);
-            }
-        }
-    }
-    return ok;
-}
-
-/* Finds where an edge crosses a triangle: the part of the edge, and shares of corners. */
-static bool CrossesAt(kiriVec3 p, kiriVec3 q, const kiriVec3 corner[3], double* part, double share[3])
-{
-    kiriVec3 u = kiriVec3_Sub(corner[1], corner[0]), v = kiriVec3_Sub(corner[2], corner[0]);
-    kiriVec3 normal = kiriVec3_Cross(u, v);
-    double above = kiriVec3_Dot(normal, kiriVec3_Sub(p, corner[0]));
-    double below = kiriVec3_Dot(normal, kiriVec3_Sub(q, corner[0])), size = kiriVec3_Dot(normal, normal);
-    if ((above > 0.0) == (below > 0.0) || !(size > 0.0)) {
-        return false;
-    }
-    *part = above / (above - below);
-    kiriVec3 at = kiriVec3_Sub(kiriVec3_AddScaled(p, *part, kiriVec3_Sub(q, p)), corner[0]);
-    share[1] = kiriVec3_Dot(normal, kiriVec3_Cross(at, v)) / size;
-    share[2] = kiriVec3_Dot(normal, kiriVec3_Cross(u, at)) / size;
-    share[0] = 1.0 - share[1] - share[2];
-    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0;
-}
 
 /* Returns the negated change of the length of the line of crossing with a move of the edge. The line begins in the edge
    and goes into its triangles. `normal`: of the triangle that is crossed. */
@@ -1000,22 +906,24 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
 /* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. */
 static double LookAtCrossing(void* context, int32_t triangle)
 {
-    FoldSearch* search = context;
-    kiriSheetData* sheet = search->sheet;
+    Search* search = context;
+    kiriSheetData* sheet = search->body->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     const int32_t* c = kiriSurface_Triangle(surface, triangle);
     kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
     kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
     bool areApart = true;
     KIRI_TIMES(k, 3) {
-        corner[k] = kiriSurface_At(surface, c[k]);
         areApart = areApart && c[k] != search->a && c[k] != search->b;
     }
     kiriNear near = { .vertex = search->a, .triangle = triangle };
-    if (!areApart || !CrossesAt(p, q, corner, &touch.upper.share[1], near.share)) {
+    kiriVec3 along = kiriVec3_Sub(q, p);
+    double* part = &touch.upper.share[1];
+    kiriSurface_Corners(surface, triangle, corner);
+    if (!areApart || !kiriTriangle_Cross(corner, p, along, part, near.share) || !(*part > 0.0 && *part <= 1.0)) {
         return search->least[0];
     }
-    kiriVec3 along = kiriVec3_Normalize(kiriVec3_Sub(q, p));
+    along = kiriVec3_Normalize(along);
     kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
     kiriVec3 at = kiriVec3_AddScaled(p, touch.upper.share[1], kiriVec3_Sub(q, p));
     kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
@@ -1039,9 +947,9 @@ static double LookAtCrossing(void* context, int32_t triangle)
 }
 
 /* Looks at edges near a layer. If both ends are probes on the same sides of their layers, the edge crosses none. */
-static bool TouchTangles(FoldSearch* search)
+static bool TouchTangles(Search* search)
 {
-    const kiriSheetData* sheet = search->sheet;
+    const kiriSheetData* sheet = search->body->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     const uint8_t* marks = sheet->probes.marks.data;
     kiriGroup group = { sheet->probes.vertexPiece.data, search->body->piece };
@@ -1065,10 +973,10 @@ static bool TouchTangles(FoldSearch* search)
 }
 
 /* Adds touches of probes and their near layers. Probes on the wrong side, and lips of a seam, have none. */
-static bool TouchLayers(FoldSearch* search, int32_t first, double dt)
+static bool TouchLayers(Search* search, int32_t first, double dt)
 {
     kiriWorld* world = search->world;
-    kiriSheetData* sheet = search->sheet;
+    kiriSheetData* sheet = search->body->sheet;
     bool ok = true;
     KIRI_FROM_TO_WHILE(ok, i, first, world->pairs.nears.count) {
         const kiriNear* near = &world->pairs.nears.data[i];
@@ -1119,10 +1027,12 @@ static bool TouchFolds(kiriWorld* world, double dt)
             ok = BeginFolds(sheet) && (!sheet->probes.folds || ListBodiesOf(world, sheet));
             KIRI_TIMES_WHILE(ok && sheet->probes.folds, p, sheet->layout.pieces.count) {
                 const kiriBody* at = &world->pairs.bodies.data[body + p];
-                FoldSearch search = { .world = world, .sheet = sheet, .body = at, .ok = true };
+                double falling = dt * kiriVec3_Length(world->gravity);
+                double reach = 2.0 * sheet->settings.foldThickness + dt * kiriMax(falling, at->stir);
+                Search search = { .world = world, .body = at, .other = at, .ok = true };
                 int32_t first = world->pairs.nears.count;
-                ok = !kiriPiece_Folds(sheet, p) ||
-                     (FindLayers(&search, dt) && TouchTangles(&search) && TouchLayers(&search, first, dt));
+                ok = !kiriPiece_Folds(sheet, p) || (FindNears(world, body + p, body + p, reach, dt) &&
+                                                    TouchTangles(&search) && TouchLayers(&search, first, dt));
             }
         }
     }

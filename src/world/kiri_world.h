@@ -31,7 +31,7 @@ typedef struct kiriNear {
     double share[3];     /* barycentric coordinates in the triangle */
     kiriVec3 normal;     /* of the triangle; its sign follows from the order of corners in the rest plane */
     double height;       /* m: of the probe above the triangle, along the normal */
-    double kept;         /* m: folds only: the distance that they keep */
+    double kept;         /* m: the distance that they keep */
 } kiriNear;
 
 /* Two pieces near each other. */
