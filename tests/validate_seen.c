@@ -44,7 +44,7 @@ static bool Check_Detail(Check* check, const kiriSheetData* sheet)
     const kiriDetail* detail = &sheet->seen.surface.detail;
     int32_t* last = Check_Ints(check, sheet->mesh.vertices.count, KIRI_NONE);
     REQUIRE(detail->sweeps == kiriSettings_Detail(&sheet->settings), "%d sweeps", detail->sweeps);
-    REQUIRE(detail->offsets.count == (detail->sweeps > 0 ? 3 * sheet->seen.surface.vertexCount : 0), "%d offsets",
+    REQUIRE(detail->offsets.count == (kiriDetail_IsOn(detail) ? 3 * sheet->seen.surface.vertexCount : 0), "%d offsets",
             detail->offsets.count);
     for (int32_t k = 0; k < detail->offsets.count; ++k) {
         REQUIRE(isfinite(detail->offsets.data[k]), "the offset of vertex %d is %g", k / 3, (double)detail->offsets.data[k]);

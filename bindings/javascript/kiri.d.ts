@@ -1102,7 +1102,7 @@ export class Stitch {
     restA: number[];
     /** m, in the material */
     restB: number[];
-    /** m, world: where both points meet. A host that welds the drawn lips puts them there */
+    /** m, world: where both drawn lips meet */
     position: number[];
     /** m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
     gap: number;

@@ -896,7 +896,7 @@ static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
         kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * item->vertex);
         kiriVec3 way = kiriObstacle_ToLocal(obstacle, kiriVec3_Sub(kiriVec3_Load(moving), skin));
         kiriVec3 from = kiriObstacle_PointToLocal(obstacle, kiriVec3_Add(surface->middle, skin));
-        if (!kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {
+        if (item->leash < 0.0f || !kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {
             continue;
         }
         kiriNearest nearest;
@@ -923,7 +923,7 @@ static void FlattenDetail(kiriSheetData* sheet)
         }
     }
     KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
-        if (item->vertex < marks->count && (marks->data[item->vertex] & KIRI_FOLD_FLAT) != 0) {
+        if (item->leash >= 0.0f && item->vertex < marks->count && (marks->data[item->vertex] & KIRI_FOLD_FLAT) != 0) {
             float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
             const float* skin = kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex;
             KIRI_TIMES(k, 3) {

@@ -24,7 +24,7 @@ kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* pl
     return kiriSurface_Blend(&sheet->seen.surface, CornersOf(sheet, place), place->shares);
 }
 
-kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place)
+kiriVec3 kiriPoint_Drawn(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 by = { 0 };
@@ -32,7 +32,7 @@ kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* plac
         const float* offset = surface->detail.offsets.data + 3 * CornersOf(sheet, place)[k];
         by = kiriVec3_AddScaled(by, place->shares[k], kiriVec3_Load(offset));
     }
-    return by;
+    return kiriVec3_Add(kiriPoint_Position(sheet, place), by);
 }
 
 static kiriVec3 AddCorner(const kiriSheetData* sheet, const float* places, kiriVec3 sum, int32_t h)
@@ -602,9 +602,9 @@ void kiriView_EndWriting(kiriSheetData* sheet)
 
 /* ---- Detail layer ---- */
 
-/* Marks vertices that a pin, a held frame or a seam holds, by a 0 in the last of their numbers in `moving`: corners of
-   triangles along its line that are nearer to it, in the rest plane, than `share` of the way to another corner. */
-static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint to, double share)
+/* Marks vertices that a pin, a held frame or a seam holds in the last of their numbers in `moving`: corners of triangles
+   along its line that are nearer to it, in the rest plane, than `share` of the way to another corner. */
+static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint to, double share, float mark)
 {
     const kiriMeshData* mesh = &sheet->mesh;
     kiriVec2 from = kiriMesh_Local(mesh, at), end = kiriMesh_Local(mesh, to);
@@ -615,7 +615,7 @@ static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint
             double next = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h))),
                    last = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, kiriEdge_Previous(h))));
             if (kiriVec2_DistanceToWay(p, from, end) < share * kiriMax(next, last)) {
-                sheet->seen.surface.detail.moving.data[4 * kiriMesh_Tail(mesh, h) + 3] = 0.0f;
+                sheet->seen.surface.detail.moving.data[4 * kiriMesh_Tail(mesh, h) + 3] = mark;
             }
         }
     }
@@ -669,15 +669,15 @@ static void ListDetail(kiriSheetData* sheet)
             }
         }
         KIRI_EACH(const kiriPinData, pin, sheet->pins) {
-            MarkHeld(sheet, pin->at, pin->to, 1.0);
+            MarkHeld(sheet, pin->at, pin->to, 1.0, 0.0f);
         }
         KIRI_EACH(const kiriSewnLine, line, sheet->sewn) {
-            MarkHeld(sheet, line->from, line->to, SEWN);
+            MarkHeld(sheet, line->from, line->to, SEWN, -1.0f);
         }
         KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
             kiriLatticePoint at = kiriMesh_Snap(&sheet->mesh, frame->site.at);
             if (frame->held) {
-                MarkHeld(sheet, at, at, 1.0);
+                MarkHeld(sheet, at, at, 1.0, 0.0f);
             }
         }
         KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
@@ -691,12 +691,31 @@ static void ListDetail(kiriSheetData* sheet)
     }
 }
 
+/* Takes a part of the offsets away that drawn lips had; those that they have now are completed each tick. So lips that
+   part do not jump. */
+static void LetOffsetsGo(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    const float kept = 0.8f;
+    KIRI_FROM_TO(v, begin, end) {
+        float* offset = sheet->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)v;
+        if ((offset[0] != 0.0f || offset[1] != 0.0f || offset[2] != 0.0f) && IsVertexAwake(sheet, v)) {
+            KIRI_TIMES(k, 3) {
+                offset[k] = fabsf(offset[k]) > 1e-12f ? kept * offset[k] : 0.0f;
+            }
+        }
+    }
+}
+
 bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
 {
     enum { GROUPS = 512, VERTICES = 4096 }; /* a task of about 10 us */
     kiriSurface* surface = &sheet->seen.surface;
     kiriDetailTask task = { &surface->detail, kiriSurface_Places(surface), 0 };
     if (!kiriSurface_HasDetail(surface) || surface->isWritten) {
+        return false;
+    }
+    if (surface->detail.sweeps == 0) {
+        ForBlocks(sheet, 0, surface->vertexCount, IsPartlyDrawn(sheet), LetOffsetsGo);
         return false;
     }
     ListDetail(sheet);

@@ -20,8 +20,8 @@ bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPl
 kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place);
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place);
 
-/* Returns the offset of the detail layer at the point, m. */
-kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place);
+/* Returns the last position on the drawn surface. */
+kiriVec3 kiriPoint_Drawn(const kiriSheetData* sheet, const kiriPointPlace* place);
 
 /* Return the normal of the skin for contacts: at a vertex; and at a place of a triangle, continuous over edges, zero if
    the normals of the corners cancel out. Call kiriSurface_NeedNormals first. */

@@ -28,6 +28,16 @@ void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory)
     }
 }
 
+double kiriSheet_Spacing(const kiriSheetData* sheet)
+{
+    double area = 0.0;
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        area += frame->area;
+    }
+    KIRI_ASSERT(sheet->frames.count > 0 && area > 0.0);
+    return kiriRoot(area / sheet->frames.count);
+}
+
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at)
 {
     kiriVec2 local = kiriSheet_ToLocal(sheet, rest), end = local;

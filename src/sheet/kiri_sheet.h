@@ -610,6 +610,9 @@ static inline bool kiriSheet_Moves(const kiriSheetData* sheet, int32_t frame)
     return kiriPiece_IsMoved(kiriSheet_PieceOf(sheet, frame));
 }
 
+/* Returns the distance of frames, m. */
+double kiriSheet_Spacing(const kiriSheetData* sheet);
+
 /* Returns true if the material of these settings yields. */
 static inline bool kiriSettings_Yield(const kiriSettings* settings)
 {

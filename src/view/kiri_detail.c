@@ -17,25 +17,26 @@
    least three vertices. */
 bool kiriDetail_Reserve(kiriDetail* detail, kiriMemory* memory, int64_t vertices, int64_t triangles, int32_t frames)
 {
-    return detail->sweeps == 0 ||
-           (kiriArray_Reserve(memory, &detail->offsets, 3 * vertices) &&
-            kiriArray_Reserve(memory, &detail->drawn, 3 * vertices + 1) &&
-            kiriArray_Reserve(memory, &detail->moving, 4 * vertices + 8) &&
+    bool hasRoom = !kiriDetail_IsOn(detail) || (kiriArray_Reserve(memory, &detail->offsets, 3 * vertices) &&
+                                                kiriArray_Reserve(memory, &detail->drawn, 3 * vertices + 1));
+    return hasRoom &&
+           (detail->sweeps == 0 ||
+            (kiriArray_Reserve(memory, &detail->moving, 4 * vertices + 8) &&
             kiriArray_Reserve(memory, &detail->crease, 4 * vertices) &&
             kiriArray_Reserve(memory, &detail->vertices, vertices) &&
             kiriArray_Reserve(memory, &detail->edges, triangles + vertices + vertices / 3) &&
-            kiriArray_Reserve(memory, &detail->awake, frames));
+            kiriArray_Reserve(memory, &detail->awake, frames)));
 }
 
 void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames)
 {
-    int32_t was = detail->offsets.count, is = detail->sweeps > 0 ? 3 * vertices : 0;
-    KIRI_ASSERT(is <= detail->offsets.capacity && (is == 0 || frames <= detail->awake.capacity));
+    int32_t was = detail->offsets.count, is = kiriDetail_IsOn(detail) ? 3 * vertices : 0;
+    KIRI_ASSERT(is <= detail->offsets.capacity && (detail->sweeps == 0 || frames <= detail->awake.capacity));
     if (is > was) {
         memset(detail->offsets.data + was, 0, sizeof(float) * (size_t)(is - was));
     }
     detail->offsets.count = detail->drawn.count = is;
-    detail->awake.count = is > 0 ? frames : 0;
+    detail->awake.count = detail->sweeps > 0 ? frames : 0;
     detail->isListed = false;
 }
 
@@ -139,7 +140,7 @@ void kiriDetail_Begin(int32_t begin, int32_t end, void* context)
     KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float *from = task->skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
-        float *to = detail->moving.data + 4 * item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
+        float *to = detail->moving.data + 4 * item.vertex, keep = item.leash != 0.0f ? 1.0f - PULL : 0.8f;
         KIRI_TIMES(i, 3) {
             to[i] = from[i] + keep * by[i];
         }

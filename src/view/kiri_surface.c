@@ -184,19 +184,33 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
     kiriDetail_Resize(&surface->detail, vertices, frameCount);
 }
 
-void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
+static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isSewn)
 {
-    bool wasOn = kiriSurface_HasDetail(surface), isOn = sweeps > 0;
+    bool wasOn = kiriSurface_HasDetail(surface), isOther = sweeps != surface->detail.sweeps || isSewn != surface->detail.isSewn;
     surface->detail.sweeps = sweeps;
-    if (isOn != wasOn) {
+    surface->detail.isSewn = isSewn;
+    bool isOn = kiriSurface_HasDetail(surface);
+    if (isOther) {
         kiriDetail_Resize(&surface->detail, surface->vertexCount, surface->carriers.count);
         surface->isWritten = surface->isSteady = false;
         surface->pose += 1;
+    }
+    if (isOn != wasOn) {
         if (isOn && !kiriSurface_IsFar(surface) && surface->vertexCount > 0) {
             memcpy(surface->places.data, surface->positions.data, sizeof(float) * (size_t)surface->positions.count);
         }
         kiriDetail_Draw(&surface->detail, surface->places.data, 0, isOn ? surface->vertexCount : 0);
     }
+}
+
+void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
+{
+    SetLayer(surface, sweeps, surface->detail.isSewn);
+}
+
+void kiriSurface_SetSewn(kiriSurface* surface)
+{
+    SetLayer(surface, surface->detail.sweeps, true);
 }
 
 void kiriSurface_Remember(kiriSurface* surface)
@@ -642,6 +656,7 @@ KIRI_TABLE(DetailTable, kiriDetail, {
     KIRI_WITHIN(0, KIRI_MOST_DETAIL, sweeps),
     KIRI_FLOAT_ITEMS(offsets),
     KIRI_UNHASHED,
+    KIRI_BOOLS(isSewn),
     KIRI_DROPPED(longest),
     KIRI_DROPPED(isListed),
     KIRI_DERIVED,

@@ -105,7 +105,7 @@ static inline bool kiriSurface_IsFar(const kiriSurface* surface)
 
 static inline bool kiriSurface_HasDetail(const kiriSurface* surface)
 {
-    return surface->detail.sweeps > 0;
+    return kiriDetail_IsOn(&surface->detail);
 }
 
 /* Returns the positions of the skin from `middle`, 3 floats a vertex. */
@@ -217,6 +217,9 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
 
 /* Turns the detail layer on or off, or changes its sweeps. Room is reserved. The next tick writes all positions. */
 void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps);
+
+/* Gives drawn vertices offsets, for seams. Room is reserved. The next tick writes all positions. */
+void kiriSurface_SetSewn(kiriSurface* surface);
 
 /* Adds the offsets of fades to the positions. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);

@@ -452,7 +452,14 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
     stitch->sheetB = b->id;
     StoreRest(a, from->at[0], stitch->restA);
     StoreRest(b, from->at[1], stitch->restB);
-    kiriVec3_Store(stitch->position, kiriVec3_Scale(0.5, kiriVec3_Add(x, y)));
+    kiriVec3 drawn = { 0.0, 0.0, 0.0 };
+    KIRI_TIMES(end, 2) {
+        kiriPointPlace place;
+        bool isFound = kiriPoint_Find(end == 0 ? a : b, from->at[end], &place);
+        KIRI_ASSERT(isFound);
+        drawn = isFound ? kiriVec3_AddScaled(drawn, 0.5, kiriPoint_Drawn(end == 0 ? a : b, &place)) : drawn;
+    }
+    kiriVec3_Store(stitch->position, drawn);
     stitch->gap = (float)kiriVec3_Distance(x, y);
     kiriVec3_Store(stitch->force, from->force);
     stitch->angle = (float)kiriStitch_Angle(world, data, index);

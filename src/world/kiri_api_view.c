@@ -238,7 +238,7 @@ kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const flo
     KIRI_ASSERT(place.triangle >= 0 && place.triangle < found->mesh.triangles.count);
     int32_t frame = kiriOwner_At(found, at);
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies in a piece that is destroyed");
-    kiriVec3_Store(state->position, kiriVec3_Add(kiriPoint_Position(found, &place), kiriPoint_Detail(found, &place)));
+    kiriVec3_Store(state->position, kiriPoint_Drawn(found, &place));
     kiriVec3_Store(state->normal, kiriPoint_Normal(found, &place));
     kiriVec3_Store(state->velocity, kiriPoint_Blend(found, &place).velocity);
     state->frame = found->frames.data[frame].id;

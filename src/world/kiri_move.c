@@ -7,6 +7,7 @@
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_update.h"
 #include "kiri_island.h"
+#include "kiri_seam.h"
 
 /* ---- Pins on obstacles ---- */
 
@@ -785,21 +786,22 @@ static bool StoodStill(const kiriWorld* world, int32_t k)
     return world->moves.of.data[world->active.data[k]].isStill;
 }
 
-/* Returns true if the sheet is skinned by ranges: with tasks, and unless it is one range, sleeps or was not moved. */
+/* Returns true if the sheet is skinned by ranges: with tasks, and unless it is one range, sleeps or was not moved. Lips of
+   sewn sheets are drawn together when all skins are blended: so these go by ranges, too. */
 static bool IsInRanges(const kiriWorld* world, int32_t k)
 {
     const kiriSheetData* sheet = kiriWorld_Active(world, k);
-    return kiriTasks_AreGiven(&world->tasks) && !StoodStill(world, k) && !sheet->rest.asleep &&
-           sheet->mesh.vertices.count > RANGE_VERTICES;
+    bool isLarge = kiriTasks_AreGiven(&world->tasks) && sheet->mesh.vertices.count > RANGE_VERTICES;
+    return (isLarge || sheet->sewn.count > 0) && !StoodStill(world, k) && !sheet->rest.asleep;
 }
 
 bool kiriSkinStep_Prepare(kiriWorld* world)
 {
     int64_t count = 0;
-    KIRI_EACH_INDEX_WHILE(kiriTasks_AreGiven(&world->tasks), i, world->sheets) {
+    KIRI_EACH_INDEX_WHILE(kiriTasks_AreGiven(&world->tasks) || world->seams.count > 0, i, world->sheets) {
         count += world->sheets.data[i]->mesh.vertices.count / RANGE_VERTICES + 1;
     }
-    return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
+    return kiriArray_Reserve(&world->memory, &world->skinRanges, count) && kiriWelds_Reserve(world);
 }
 
 static void ListRanges(kiriWorld* world)
@@ -868,7 +870,14 @@ static void RunRanges(int32_t start, int32_t end, void* context)
     }
 }
 
-static void SumSheets(int32_t start, int32_t end, void* context)
+/* Returns true if seams may move the drawn lips of the sheet. The last seam may have broken in this tick. */
+static bool IsSewn(const kiriWorld* world, const kiriSheetData* sheet)
+{
+    return sheet->sewn.count > 0 && world->seams.count > 0;
+}
+
+/* Relaxes and sums; sheets with seams are summed later. */
+static void RelaxSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     const kiriTasks none = { NULL, NULL, NULL, 0 };
@@ -878,7 +887,19 @@ static void SumSheets(int32_t start, int32_t end, void* context)
             if (!IsLarge(sheet)) {
                 Relax(task, sheet, &none);
             }
-            kiriView_Sum(sheet);
+            if (!IsSewn(task->world, sheet)) {
+                kiriView_Sum(sheet);
+            }
+        }
+    }
+}
+
+static void SumSewn(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    KIRI_FROM_TO(k, start, end) {
+        if (IsInRanges(task->world, k) && IsSewn(task->world, kiriWorld_Active(task->world, k))) {
+            kiriView_Sum(kiriWorld_Active(task->world, k));
         }
     }
 }
@@ -912,7 +933,11 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
                 Relax(&task, kiriWorld_Active(world, k), &world->tasks);
             }
         }
-        kiriTasks_Run(&world->tasks, SumSheets, world->active.count, 1, &task);
+        kiriTasks_Run(&world->tasks, RelaxSheets, world->active.count, 1, &task);
+        if (world->seams.count > 0) {
+            kiriWelds_Close(world);
+            kiriTasks_Run(&world->tasks, SumSewn, world->active.count, 1, &task);
+        }
         task.run = kiriView_WriteRange;
         kiriTasks_Run(&world->tasks, RunRanges, world->skinRanges.count, 1, &task);
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);

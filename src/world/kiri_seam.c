@@ -1,5 +1,6 @@
 #include "kiri_seam.h"
 #include "kiri_call.h"
+#include "../core/kiri_archive.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_touch.h"
 
@@ -11,6 +12,16 @@
 #define PER_SPACING 1.5   /* stitches for the distance of frames */
 #define GRAVITY 9.81      /* m/s^2 */
 #define MOST_STITCHES 4096
+#define MOST_CORNERS 4096 /* of the lines: those after them are cut off */
+
+/* Of welds. */
+#define ON_SEAM 2048 /* lattice steps: a vertex as near to the line of a seam is on its lip */
+#define INTO_SHEET 512 /* lattice steps: from a border into the material */
+#define WELD_REACH 1.0  /* distances of frames: way over which offsets fade */
+#define WELD_OPEN 0.5   /* distances of frames: lips that are farther apart are drawn where they are */
+#define WELD_CLOSED 1e-6 /* sides of the sheet: lips as near need no more rounds */
+
+enum { WELD_SPREADS = 2, WELD_ROUNDS = 8 };
 
 /* ---- Ends -------------------------------------------------------------------------------------------------------- */
 
@@ -234,23 +245,12 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
     return isFound;
 }
 
-/* Returns the distance of frames, m. */
-static double FrameSpacing(const kiriSheetData* sheet)
-{
-    double area = 0.0;
-    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
-        area += frame->area;
-    }
-    KIRI_ASSERT(sheet->frames.count > 0 && area > 0.0);
-    return sqrt(area / sheet->frames.count);
-}
-
 /* Returns true if gravity bends the material less than from frame to frame. Such lips would hold each other straight.
    In softer material they meet where they are drawn. */
 static bool IsStiff(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
-    double thickness = material->thickness, spacing = FrameSpacing(sheet);
+    double thickness = material->thickness, spacing = kiriSheet_Spacing(sheet);
     double bending = material->youngsModulus * thickness * thickness / 12.0;
     return bending > material->density * GRAVITY * spacing * spacing * spacing;
 }
@@ -285,8 +285,40 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
     return NULL;
 }
 
+/* Places the corners of both lines that are between stitches. Those outside the material are left out. */
+static void PlaceCorners(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
+{
+    const float* lines[2] = { def->lineA, def->lineB };
+    const int32_t counts[2] = { def->countA, def->countB };
+    const double lengths[2] = { LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB) };
+    int32_t stitches = seam->stitches.count, next[2] = { 1, 1 };
+    double along[2], last = 0.0, parts = seam->stitches.data[stitches - 1].next == KIRI_NONE ? stitches - 1 : stitches;
+    KIRI_TIMES(end, 2) {
+        along[end] = kiriVec2_Distance(LinePoint(lines[end], 0), LinePoint(lines[end], 1)) / lengths[end];
+    }
+    while (next[0] + 1 < counts[0] || next[1] + 1 < counts[1]) {
+        int end = next[1] + 1 >= counts[1] || (next[0] + 1 < counts[0] && along[0] <= along[1]) ? 0 : 1;
+        double at = along[end] * parts;
+        kiriSeamCorner corner = { kiriMin((int32_t)at, (int32_t)parts - 1), 0.0, { { 0, 0 }, { 0, 0 } } };
+        kiriStitchData place = { 0 };
+        corner.part = at - corner.stitch;
+        if (at > last + 1e-6 && corner.part > 1e-6 && corner.part < 1.0 - 1e-6 &&
+            seam->corners.count < seam->corners.capacity &&
+            PlaceEnd(sheets[0], lines[0], counts[0], along[end] * lengths[0], &place, 0) &&
+            PlaceEnd(sheets[1], lines[1], counts[1], along[end] * lengths[1], &place, 1)) {
+            memcpy(corner.at, place.at, sizeof(corner.at));
+            KIRI_NEXT(seam->corners) = corner;
+        }
+        last = at;
+        along[end] += kiriVec2_Distance(LinePoint(lines[end], next[end]), LinePoint(lines[end], next[end] + 1)) / lengths[end];
+        next[end] += 1;
+    }
+}
+
 static void FreeSeam(kiriWorld* world, kiriSeamData* seam)
 {
+    kiriWeld_Free(&seam->weld, &world->memory);
+    kiriArray_Release(&world->memory, &seam->corners);
     kiriArray_Release(&world->memory, &seam->stitches);
     kiriArray_Release(&world->memory, &seam->rows);
     kiriMemory_Free(&world->memory, seam);
@@ -313,7 +345,7 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
                                  kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
     double length = kiriMin(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
-    double spacing = kiriMin(FrameSpacing(sheets[0]), FrameSpacing(sheets[1]));
+    double spacing = kiriMin(kiriSheet_Spacing(sheets[0]), kiriSheet_Spacing(sheets[1]));
     KIRI_CHECK(length > 0.0, "def.lineA or def.lineB has no length");
     KIRI_CHECK(!sheets[0]->settings.mechanics.planar && !sheets[1]->settings.mechanics.planar,
                "def names a planar sheet: it cannot be sewn");
@@ -328,7 +360,21 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     KIRI_REQUIRE(made != NULL, result != KIRI_OK ? result : KIRI_ERROR_MEMORY, NULL);
     bool hasRoom = kiriArray_ResizeJust(&world->memory, &made->stitches, count) &&
                    kiriArray_ReserveJust(&world->memory, &made->rows, count);
+    hasRoom = hasRoom && kiriArray_ReserveJust(&world->memory, &made->corners,
+                                               kiriMin(def->countA + def->countB - 4, MOST_CORNERS));
     const char* why = hasRoom ? PlaceStitches(def, sheets, made) : NULL;
+    if (hasRoom && why == NULL) {
+        PlaceCorners(def, sheets, made);
+        hasRoom = kiriWeld_Make(world, made);
+    }
+    KIRI_TIMES_WHILE(hasRoom, end, 2) { /* the offsets of drawn lips */
+        kiriDetail detail = sheets[end]->seen.surface.detail;
+        detail.isSewn = true;
+        hasRoom = kiriDetail_Reserve(&detail, &sheets[end]->shown, sheets[end]->mesh.vertices.count,
+                                     sheets[end]->mesh.triangles.count, sheets[end]->frames.count);
+        detail.isSewn = sheets[end]->seen.surface.detail.isSewn;
+        sheets[end]->seen.surface.detail = detail;
+    }
     if (!hasRoom || why != NULL) {
         FreeSeam(world, made);
         return KIRI_FAIL(hasRoom ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_MEMORY, why);
@@ -337,6 +383,8 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     made->bending = def->stiffness;
     made->restAngle = def->restAngle;
     made->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
+    kiriSurface_SetSewn(&sheets[0]->seen.surface);
+    kiriSurface_SetSewn(&sheets[1]->seen.surface);
     made->id = kiriPool_Add(&world->seamIds, made, 0);
     KIRI_NEXT(world->seams) = made;
     WakeSeam(world, made);
@@ -435,8 +483,16 @@ bool kiriSeams_ListLines(kiriWorld* world)
             const kiriStitchData* to = k / 2 + 1 < seam->stitches.count ? from + 1 : all;
             kiriSheetData* sheet = kiriStitch_Sheet(world, from, k % 2);
             kiriSewnLine line = { seam->id, from->at[k % 2], to->at[k % 2] };
-            ok = from->next != to->number || kiriStitch_Sheet(world, to, k % 2) != sheet ||
-                 kiriArray_Push(sheet->memory, &sheet->sewn, line);
+            bool isWhole = from->next == to->number && kiriStitch_Sheet(world, to, k % 2) == sheet;
+            KIRI_EACH_WHILE(ok && isWhole, const kiriSeamCorner, corner, seam->corners) {
+                if (corner->stitch == from->number) {
+                    line.to = corner->at[k % 2];
+                    ok = kiriArray_Push(sheet->memory, &sheet->sewn, line);
+                    line.from = line.to;
+                }
+            }
+            line.to = to->at[k % 2];
+            ok = ok && (!isWhole || kiriArray_Push(sheet->memory, &sheet->sewn, line));
         }
     }
     return ok;
@@ -569,5 +625,474 @@ void kiriSeams_End(kiriWorld* world, double dt)
                 RemoveSeam(world, seam);
             }
         }
+    }
+}
+
+/* ---- Welds: drawn lips ------------------------------------------------------------------------------------------- */
+
+/* Stitches hold points that frames carry. Drawn lips differ by millimetres: patches of a smooth skin
+   bend, and weights are not linear between stitches. So the drawn surface gets an offset (kiriDetail): vertices of both lips
+   are drawn at one point, and the offset fades over a distance of frames. Motion, contacts and blades do not see it. */
+
+/* ---- Stretches --------------------------------------------------------------------------------------------------- */
+
+static kiriSheetData* SheetOfStitch(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch, int end)
+{
+    KIRI_ASSERT_HAS(seam->stitches, stitch);
+    return SlotOf(world, &seam->stitches.data[stitch], end)->owner;
+}
+
+/* The part of a seam from a stitch to the next one, in one piece at each end. */
+typedef struct Stretch {
+    kiriSheetData* sheets[2];
+    int32_t frames[2], pieces[2];
+    const kiriStitchData *from, *to;
+} Stretch;
+
+static bool FindStretch(const kiriWorld* world, const kiriSeamData* seam, int32_t k, Stretch* stretch)
+{
+    const kiriStitchData* all = seam->stitches.data;
+    KIRI_ASSERT_HAS(seam->stitches, k);
+    *stretch = (Stretch){ .from = &all[k], .to = k + 1 < seam->stitches.count ? &all[k + 1] : &all[0] };
+    bool isWhole = stretch->from->next == stretch->to->number;
+    KIRI_TIMES_WHILE(isWhole, end, 2) {
+        const kiriSlot *a = SlotOf(world, stretch->from, end), *b = SlotOf(world, stretch->to, end);
+        const int32_t* pieces = ((const kiriSheetData*)a->owner)->layout.framePiece.data;
+        stretch->sheets[end] = a->owner;
+        stretch->frames[end] = a->index;
+        stretch->pieces[end] = pieces[a->index];
+        isWhole = a->owner == b->owner && pieces[a->index] == pieces[b->index];
+    }
+    return isWhole;
+}
+
+/* Corners of the lines are knots of a stretch, as its stitches are. */
+typedef struct Knot {
+    double part; /* of the stretch */
+    const kiriLatticePoint* at;
+} Knot;
+
+/* Returns the next knot. *corner: index of the next corner to look at; 0 at first. */
+static Knot NextKnot(const kiriSeamData* seam, const Stretch* stretch, int32_t* corner)
+{
+    for (; *corner < seam->corners.count; ++*corner) {
+        const kiriSeamCorner* at = &seam->corners.data[*corner];
+        if (at->stitch == stretch->from->number) {
+            ++*corner;
+            return (Knot){ at->part, at->at };
+        }
+    }
+    return (Knot){ 1.0, stretch->to->at };
+}
+
+/* ---- Nodes ------------------------------------------------------------------------------------------------------- */
+
+static double PartOnWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
+{
+    kiriVec2 way = kiriVec2_Sub(b, a);
+    double square = kiriVec2_Dot(way, way);
+    return square > 0.0 ? kiriClamp(kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square, 0.0, 1.0) : 0.0;
+}
+
+/* Adds a node in the order of the line, with a vertex of a lip, unless it is there. KIRI_NONE: none. */
+static void AddWeldNode(kiriWeld* weld, const Stretch* stretch, int32_t first, double part, int end, int32_t vertex)
+{
+    kiriWeldNode node = { .part = part, .open = HUGE_VAL, .vertices = { { -1, -1, -1 }, { -1, -1, -1 } } };
+    bool isNew = weld->nodes.count < weld->nodes.capacity;
+    KIRI_ASSERT(part >= 0.0 && part <= 1.0 && first <= weld->nodes.count);
+    KIRI_FROM_TO(n, first, weld->nodes.count) {
+        const kiriWeldNode* other = &weld->nodes.data[n];
+        isNew = isNew && !(other->isVertex[end] && other->vertices[end][0] == vertex);
+    }
+    KIRI_TIMES(k, 2) {
+        node.sheets[k] = stretch->sheets[k];
+        node.frames[k] = stretch->frames[k];
+        node.open = kiriMin(WELD_OPEN * kiriSheet_Spacing(stretch->sheets[k]), node.open);
+    }
+    node.isVertex[end] = vertex != KIRI_NONE;
+    node.vertices[end][0] = vertex;
+    node.shares[end][0] = 1.0;
+    if (isNew) {
+        int32_t n = weld->nodes.count++;
+        for (; n > first && weld->nodes.data[n - 1].part > part; --n) {
+            weld->nodes.data[n] = weld->nodes.data[n - 1];
+        }
+        weld->nodes.data[n] = node;
+    }
+}
+
+/* Adds the vertices on the line between two knots. */
+static void AddLipVertices(kiriWeld* weld, const Stretch* stretch, int32_t first, Knot a, Knot b, int end)
+{
+    const kiriSheetData* sheet = stretch->sheets[end];
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriVec2 from = kiriMesh_Local(mesh, a.at[end]), to = kiriMesh_Local(mesh, b.at[end]);
+    kiriNearby nearby = kiriNearby_Begin(&mesh->squares, a.at[end], b.at[end], ON_SEAM);
+    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+        KIRI_EACH_CORNER(k) {
+            int32_t v = mesh->triangles.data[t].vertex[k];
+            kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+            if (kiriVec2_DistanceToWay(p, from, to) < ON_SEAM * mesh->step &&
+                kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
+                AddWeldNode(weld, stretch, first, a.part + (b.part - a.part) * PartOnWay(p, from, to), end, v);
+            }
+        }
+    }
+}
+
+/* Joins nodes at the same part of the line: of one lip, of the other, and of a stitch. Where a cut crosses the seam, lips
+   have two vertices there, which go apart: then the node is dropped. Returns the number of nodes. */
+static int32_t JoinWeldNodes(kiriWeldNode* nodes, int32_t count, double least)
+{
+    int32_t kept = 0;
+    for (int32_t n = 0, next; n < count; n = next) {
+        kiriWeldNode joined = nodes[n];
+        bool isCut = false;
+        for (next = n + 1; next < count && nodes[next].part - nodes[n].part < least; ++next) {
+            KIRI_TIMES(end, 2) {
+                isCut |= joined.isVertex[end] && nodes[next].isVertex[end];
+                if (nodes[next].isVertex[end]) {
+                    joined.isVertex[end] = true;
+                    memcpy(joined.vertices[end], nodes[next].vertices[end], sizeof(joined.vertices[end]));
+                    memcpy(joined.shares[end], nodes[next].shares[end], sizeof(joined.shares[end]));
+                }
+            }
+        }
+        if (!isCut) {
+            nodes[kept++] = joined;
+        }
+    }
+    return kept;
+}
+
+/* Finds the triangle of a lip that has no vertex there. Returns false outside the material. */
+static bool PlaceWeldNode(const kiriSeamData* seam, const Stretch* stretch, int end, kiriWeldNode* node)
+{
+    const kiriSheetData* sheet = stretch->sheets[end];
+    int32_t corner = 0, triangle = KIRI_NONE;
+    KIRI_ASSERT(node->part >= 0.0 && node->part <= 1.0 && !node->isVertex[end]);
+    Knot a = { 0.0, stretch->from->at }, b = NextKnot(seam, stretch, &corner);
+    while (b.part < node->part) {
+        a = b;
+        b = NextKnot(seam, stretch, &corner);
+    }
+    double share = b.part > a.part ? (node->part - a.part) / (b.part - a.part) : 0.0;
+    kiriVec2 inward = stretch->from->inward[end];
+    kiriLatticePoint at = { 0, 0 };
+    KIRI_TIMES_WHILE(triangle == KIRI_NONE, k, 3) {
+        at.x = (int32_t)(a.at[end].x + share * ((double)b.at[end].x - a.at[end].x) + k * INTO_SHEET * inward.x);
+        at.y = (int32_t)(a.at[end].y + share * ((double)b.at[end].y - a.at[end].y) + k * INTO_SHEET * inward.y);
+        triangle = kiriMesh_Locate(&sheet->mesh, at);
+    }
+    if (triangle == KIRI_NONE || kiriPiece_OfTriangle(sheet, triangle) != stretch->pieces[end]) {
+        return false;
+    }
+    memcpy(node->vertices[end], sheet->mesh.triangles.data[triangle].vertex, sizeof(node->vertices[end]));
+    kiriMesh_Shares(&sheet->mesh, triangle, at, node->shares[end]);
+    return true;
+}
+
+/* Lists the nodes of a stretch: its ends, and all vertices on both lips. */
+static void ListWeldNodes(const kiriSeamData* seam, kiriWeld* weld, const Stretch* stretch)
+{
+    int32_t first = weld->nodes.count;
+    double size = 0.0;
+    AddWeldNode(weld, stretch, first, 0.0, 0, KIRI_NONE);
+    KIRI_TIMES(end, 2) {
+        int32_t corner = 0;
+        for (Knot a = { 0.0, stretch->from->at }, b; a.part < 1.0; a = b) {
+            b = NextKnot(seam, stretch, &corner);
+            AddLipVertices(weld, stretch, first, a, b, end);
+        }
+        size = kiriMax(stretch->sheets[end]->mesh.step, size);
+    }
+    AddWeldNode(weld, stretch, first, 1.0, 0, KIRI_NONE);
+    kiriWeldNode* nodes = weld->nodes.data + first;
+    int32_t count = JoinWeldNodes(nodes, weld->nodes.count - first, 2.0 * ON_SEAM * size / stretch->from->length), kept = 0;
+    KIRI_TIMES(n, count) {
+        bool isThere = true;
+        KIRI_TIMES_WHILE(isThere, end, 2) {
+            isThere = nodes[n].isVertex[end] || PlaceWeldNode(seam, stretch, end, &nodes[n]);
+        }
+        if (isThere) {
+            nodes[kept++] = nodes[n];
+        }
+    }
+    KIRI_ASSERT(kept <= count);
+    weld->nodes.count = first + kept;
+}
+
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
+
+/* Takes the line between two knots for the vertices that are nearer to it than to those before. */
+static void TakeNear(kiriWeldNear* near, const kiriWeld* weld, const Stretch* stretch, int32_t first, Knot a, Knot b,
+                     int end, double reach)
+{
+    const kiriSheetData* sheet = stretch->sheets[end];
+    const kiriMeshData* mesh = &sheet->mesh;
+    kiriVec2 from = kiriMesh_Local(mesh, a.at[end]), to = kiriMesh_Local(mesh, b.at[end]);
+    kiriNearby nearby = kiriNearby_Begin(&mesh->squares, a.at[end], b.at[end], reach / mesh->step);
+    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+        KIRI_EACH_CORNER(k) {
+            int32_t v = mesh->triangles.data[t].vertex[k];
+            kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+            float distance = (float)(kiriVec2_DistanceToWay(p, from, to) / reach);
+            if (distance < near[v].distance && kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
+                double part = a.part + (b.part - a.part) * PartOnWay(p, from, to);
+                int32_t n = first;
+                KIRI_ASSERT_HAS(weld->nodes, first);
+                while (n + 1 < weld->nodes.count && weld->nodes.data[n + 1].part > weld->nodes.data[n].part &&
+                       weld->nodes.data[n + 1].part <= part) {
+                    ++n;
+                }
+                bool isLast = n + 1 == weld->nodes.count || weld->nodes.data[n + 1].part <= weld->nodes.data[n].part;
+                double width = isLast ? 0.0 : weld->nodes.data[n + 1].part - weld->nodes.data[n].part;
+                double share = width > 0.0 ? (part - weld->nodes.data[n].part) / width : 0.0;
+                near[v] = (kiriWeldNear){ distance, n, (float)kiriClamp(share, 0.0, 1.0) };
+            }
+        }
+    }
+}
+
+/* Lists the vertices of a sheet that one lip moves: those on it with the nodes, the others by their distance. */
+static void ListLipVertices(kiriWorld* world, const kiriSeamData* seam, kiriWeld* weld, const kiriSheetData* sheet, int end)
+{
+    kiriWeldNear* near = world->weldNear.data;
+    double reach = WELD_REACH * kiriSheet_Spacing(sheet);
+    KIRI_ASSERT(sheet->mesh.vertices.count <= world->weldNear.capacity);
+    KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
+        near[v] = (kiriWeldNear){ 1.0f, KIRI_NONE, 0.0f };
+    }
+    int32_t first = 0;
+    KIRI_EACH_INDEX(k, seam->stitches) {
+        Stretch stretch;
+        bool isWhole = FindStretch(world, seam, k, &stretch);
+        while (first < weld->nodes.count && weld->nodes.data[first].stretch < k) {
+            ++first;
+        }
+        if (isWhole && stretch.sheets[end] == sheet && first < weld->nodes.count && weld->nodes.data[first].stretch == k) {
+            int32_t corner = 0;
+            for (Knot a = { 0.0, stretch.from->at }, b; a.part < 1.0; a = b) {
+                b = NextKnot(seam, &stretch, &corner);
+                TakeNear(near, weld, &stretch, first, a, b, end, reach);
+            }
+        }
+    }
+    KIRI_EACH_INDEX(n, weld->nodes) {
+        const kiriWeldNode* node = &weld->nodes.data[n];
+        if (node->isVertex[end] && node->sheets[end] == sheet && near[node->vertices[end][0]].distance >= 0.0f) {
+            near[node->vertices[end][0]] = (kiriWeldNear){ -1.0f, n, 0.0f };
+        }
+    }
+    KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
+        if (near[v].node != KIRI_NONE && weld->vertices.count < weld->vertices.capacity) {
+            float left = 1.0f - kiriMax(near[v].distance, 0.0f);
+            KIRI_NEXT(weld->vertices) = (kiriWeldVertex){ v, near[v].node, end, near[v].share, left * left };
+        }
+    }
+}
+
+/* ---- Lists ------------------------------------------------------------------------------------------------------- */
+
+static int64_t CountSewnVertices(const kiriWorld* world, const kiriSeamData* seam, int32_t* most)
+{
+    int64_t sum = 0;
+    KIRI_TIMES(k, 2 * seam->stitches.count) {
+        const kiriSheetData* sheet = SheetOfStitch(world, seam, k / 2, k % 2);
+        if (k < 2 || sheet != SheetOfStitch(world, seam, k / 2 - 1, k % 2)) {
+            sum += sheet->mesh.vertices.count;
+            *most = kiriMax(sheet->mesh.vertices.count, *most);
+        }
+    }
+    return sum;
+}
+
+/* Returns a hash of the stitches and meshes: the lists follow from them. */
+static uint64_t KeyOfWeld(const kiriWorld* world, const kiriSeamData* seam)
+{
+    uint64_t key = KIRI_HASH_START;
+    KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+        kiriHash_Int32(&key, stitch->number);
+        KIRI_TIMES(end, 2) {
+            const kiriSheetData* sheet = SlotOf(world, stitch, end)->owner;
+            kiriHash_Word(&key, stitch->frames[end]);
+            kiriHash_Word(&key, sheet->id);
+            kiriHash_Word(&key, sheet->mesh.revision);
+            kiriHash_Int32(&key, sheet->layout.pieces.count);
+        }
+    }
+    return key;
+}
+
+static void ListWeld(kiriWorld* world, kiriSeamData* seam)
+{
+    kiriWeld* weld = &seam->weld;
+    int32_t most = 0;
+    weld->nodes.count = weld->vertices.count = 0;
+    KIRI_EACH_INDEX(k, seam->stitches) {
+        Stretch stretch;
+        int32_t first = weld->nodes.count;
+        if (FindStretch(world, seam, k, &stretch)) {
+            ListWeldNodes(seam, weld, &stretch);
+        }
+        KIRI_FROM_TO(n, first, weld->nodes.count) {
+            weld->nodes.data[n].stretch = k;
+        }
+    }
+    KIRI_TIMES(k, 2 * seam->stitches.count) {
+        const kiriSheetData* sheet = SheetOfStitch(world, seam, k / 2, k % 2);
+        bool isFirst = true;
+        KIRI_TIMES_WHILE(isFirst, before, k / 2) {
+            isFirst = SheetOfStitch(world, seam, before, k % 2) != sheet;
+        }
+        if (isFirst) {
+            ListLipVertices(world, seam, weld, sheet, k % 2);
+        }
+    }
+    weld->vertexCount = CountSewnVertices(world, seam, &most);
+    weld->key = KeyOfWeld(world, seam);
+}
+
+static bool ReserveWeld(kiriWorld* world, kiriSeamData* seam)
+{
+    kiriWeld* weld = &seam->weld;
+    int32_t most = 0;
+    int64_t vertices = CountSewnVertices(world, seam, &most);
+    int64_t nodes = 2 * weld->nodes.count + 4 * seam->stitches.count + 2 * kiriMax(vertices - weld->vertexCount, (int64_t)0);
+    return kiriArray_Reserve(&world->memory, &weld->nodes, nodes) &&
+           kiriArray_Reserve(&world->memory, &weld->vertices, vertices) &&
+           kiriArray_Reserve(&world->memory, &world->weldNear, most);
+}
+
+bool kiriWeld_Make(kiriWorld* world, kiriSeamData* seam)
+{
+    bool hasRoom = ReserveWeld(world, seam);
+    if (hasRoom) {
+        ListWeld(world, seam);
+        kiriArray_Shorten(&world->memory, &seam->weld.nodes, sizeof(*seam->weld.nodes.data));
+    }
+    return hasRoom;
+}
+
+bool kiriWelds_Reserve(kiriWorld* world)
+{
+    bool ok = true;
+    KIRI_EACH_INDEX_WHILE(ok, i, world->seams) {
+        ok = ReserveWeld(world, world->seams.data[i]);
+    }
+    return ok;
+}
+
+void kiriWeld_Free(kiriWeld* weld, kiriMemory* memory)
+{
+    kiriArray_Release(memory, &weld->nodes);
+    kiriArray_Release(memory, &weld->vertices);
+}
+
+/* ---- In a tick --------------------------------------------------------------------------------------------------- */
+
+/* Lists the lips again if they are stale, and finds the ends that move: pieces that this tick draws. Returns false if none
+   moves. */
+static bool BeginWeld(kiriWorld* world, kiriSeamData* seam)
+{
+    bool isStale = KeyOfWeld(world, seam) != seam->weld.key, any = false;
+    KIRI_TIMES_WHILE(!isStale, k, 2 * seam->stitches.count) {
+        isStale = SheetOfStitch(world, seam, k / 2, k % 2)->seen.isElsewhere;
+    }
+    if (isStale) {
+        ListWeld(world, seam);
+    }
+    KIRI_EACH(kiriWeldNode, node, seam->weld.nodes) {
+        bool moves[2];
+        KIRI_TIMES(end, 2) {
+            const kiriSheetData* sheet = node->sheets[end];
+            moves[end] = !sheet->rest.asleep && !sheet->seen.surface.isWritten &&
+                         kiriSheet_Moves(sheet, node->frames[end]) && !world->moves.of.data[sheet->probes.sheet].isStill;
+        }
+        node->moves[0] = moves[0] ? (moves[1] ? -0.5 : -1.0) : 0.0;
+        node->moves[1] = moves[1] ? (moves[0] ? 0.5 : 1.0) : 0.0;
+        any |= moves[0] || moves[1];
+    }
+    return any;
+}
+
+/* Computes how far the drawn ends of a node are from where they should be to each other. */
+static void MeasureWeldNode(kiriWeldNode* node)
+{
+    kiriVec3 skin = { 0.0, 0.0, 0.0 }, offset = skin;
+    KIRI_TIMES(end, 2) {
+        const kiriSurface* surface = &node->sheets[end]->seen.surface;
+        double sign = end == 0 ? 1.0 : -1.0;
+        skin = kiriVec3_AddScaled(skin, sign, surface->middle);
+        for (int k = 0; k < 3 && node->vertices[end][k] != KIRI_NONE; ++k) {
+            double share = sign * node->shares[end][k];
+            skin = kiriVec3_AddScaled(skin, share, kiriVec3_Load(kiriSurface_Places(surface) + 3 * node->vertices[end][k]));
+            offset = kiriVec3_AddScaled(offset, share, kiriVec3_Load(surface->detail.offsets.data + 3 * node->vertices[end][k]));
+        }
+    }
+    /* Lips that come nearer than twice WELD_OPEN close ahead of the skin, so that no drawn lip jumps. */
+    double gap = kiriVec3_Length(skin), closed = kiriClamp(2.0 - gap / node->open, 0.0, 1.0);
+    node->missing = closed >= 0.0 ? kiriVec3_AddScaled(offset, closed, skin) : (kiriVec3){ 0.0, 0.0, 0.0 };
+}
+
+static void MoveOffset(const kiriSheetData* sheet, int32_t vertex, kiriVec3 by)
+{
+    KIRI_ASSERT(vertex >= 0 && 3 * vertex < sheet->seen.surface.detail.offsets.count);
+    float* offset = sheet->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)vertex;
+    kiriVec3_Store(offset, kiriVec3_Add(kiriVec3_Load(offset), by));
+}
+
+/* Moves the lips of a seam, and the vertices beside them. */
+static void MoveLips(const kiriWeld* weld)
+{
+    KIRI_EACH(const kiriWeldVertex, at, weld->vertices) {
+        const kiriWeldNode *from = &weld->nodes.data[at->node], *to = at->share > 0.0f ? from + 1 : from;
+        double share = at->share, moves = from->moves[at->end] * at->weight;
+        KIRI_ASSERT(at->node >= 0 && at->node + (at->share > 0.0f) < weld->nodes.count);
+        if (moves != 0.0) {
+            kiriVec3 by = kiriVec3_Add(kiriVec3_Scale((1.0 - share) * moves, from->missing),
+                                       kiriVec3_Scale(share * moves, to->missing));
+            MoveOffset(from->sheets[at->end], at->vertex, by);
+        }
+    }
+}
+
+/* Moves lips: with the vertices beside them, or alone. Returns how far they were apart, relative to the sheet. */
+static double CloseLips(const kiriWorld* world, bool spreads)
+{
+    double worst = 0.0;
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        double most = 0.0;
+        KIRI_EACH_WHILE(seam->weld.isDrawn, kiriWeldNode, node, seam->weld.nodes) {
+            bool hasVertex = node->isVertex[0] || node->isVertex[1];
+            MeasureWeldNode(node);
+            double apart = kiriVec3_Length(node->missing) / node->sheets[0]->seen.surface.longer;
+            most = node->moves[0] != node->moves[1] && (hasVertex || spreads) ? kiriMax(apart, most) : most;
+            KIRI_TIMES_WHILE(!spreads, end, 2) { /* a vertex on an edge of the other lip goes there */
+                double moves = node->moves[end], way = moves > 0.0 ? 1.0 : -1.0;
+                if (node->isVertex[end] && moves != 0.0) {
+                    kiriVec3 by = kiriVec3_Scale(node->isVertex[1 - end] ? moves : way, node->missing);
+                    MoveOffset(node->sheets[end], node->vertices[end][0], by);
+                }
+            }
+        }
+        if (spreads && most > WELD_CLOSED) {
+            MoveLips(&seam->weld);
+        }
+        worst = kiriMax(most, worst);
+    }
+    return worst;
+}
+
+/* Where seams meet, a lip of one is moved by the others: rounds over all seams bring them to one point. */
+void kiriWelds_Close(kiriWorld* world)
+{
+    double apart = 0.0;
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        seam->weld.isDrawn = BeginWeld(world, seam);
+        apart = seam->weld.isDrawn ? 1.0 : apart;
+    }
+    for (int round = 0; round < WELD_ROUNDS && apart > WELD_CLOSED; ++round) {
+        apart = CloseLips(world, round < WELD_SPREADS);
     }
 }

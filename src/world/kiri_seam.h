@@ -36,6 +36,19 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
 /* Takes the forces of a tick of dt, and breaks stitches. Room for an event of each seam is reserved. */
 void kiriSeams_End(kiriWorld* world, double dt);
 
+/* ---- Drawn lips: a weld ---- */
+
+/* Lists the lips of a new or loaded seam. Fails on out of memory. */
+bool kiriWeld_Make(kiriWorld* world, kiriSeamData* seam);
+
+/* Reserves for the lips of all seams, so that Close cannot fail. Call it when the meshes of the tick are made. */
+bool kiriWelds_Reserve(kiriWorld* world);
+
+/* Moves the drawn lips of all seams together, after the skins of all sheets are blended. */
+void kiriWelds_Close(kiriWorld* world);
+
+void kiriWeld_Free(kiriWeld* weld, kiriMemory* memory);
+
 KIRI_C_END
 
 #endif

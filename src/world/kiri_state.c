@@ -56,13 +56,21 @@ KIRI_TABLE(StitchTable, kiriStitchData, {
     KIRI_RUN(4, frames),
 })
 
+KIRI_TABLE(CornerTable, kiriSeamCorner, {
+    KIRI_RUN(4, stitch),
+    KIRI_REALS(part),
+    KIRI_RUN(4, at),
+})
+
 KIRI_TABLE(SeamTable, kiriSeamData, {
     KIRI_REALS(breakForce, restAngle),
     KIRI_BOOLS(bends),
     KIRI_PARTS(stitches, StitchTable),
+    KIRI_PARTS(corners, CornerTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, id),
     KIRI_ROOM_OF(rows),
+    KIRI_DROPPED(weld),
 })
 
 enum { MOST_GENERATIONS = 127 };
@@ -128,6 +136,7 @@ KIRI_TABLE(WorldTable, kiriWorld, {
     KIRI_DROPPED(islands),
     KIRI_PART(moves, MovesTable),
     KIRI_ROOMS(active, atWork, skinRanges),
+    KIRI_ROOM_OF(weldNear),
     KIRI_PART(profile, ProfileTable),
     KIRI_KEPT(memory, retired),
     KIRI_DROPPED(log, user),
@@ -235,10 +244,13 @@ static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
         KIRI_TIMES_WHILE(isFine, end, 2) {
             sheets[end] = kiriStitch_Sheet(world, stitch, end);
             isFine = fabs(kiriVec2_Length(stitch->inward[end]) - 1.0) < 1e-6 && sheets[end] != NULL &&
-                     !sheets[end]->settings.mechanics.planar &&
+                     !sheets[end]->settings.mechanics.planar && sheets[end]->seen.surface.detail.isSewn &&
                      kiriMesh_Locate(&sheets[end]->mesh, stitch->at[end]) != KIRI_NONE &&
                      sheets[end]->settings.mechanics.model == sheets[0]->settings.mechanics.model;
         }
+    }
+    KIRI_EACH_WHILE(isFine, const kiriSeamCorner, corner, seam->corners) {
+        isFine = corner->part > 0.0 && corner->part < 1.0;
     }
     return isFine;
 }
@@ -401,6 +413,9 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     }
     KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(&archive), i, made->sheets) {
         archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i], isWhole);
+    }
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(&archive), i, made->seams) {
+        archive.isShort |= !kiriWeld_Make(made, made->seams.data[i]);
     }
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;
 }

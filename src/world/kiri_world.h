@@ -111,6 +111,48 @@ typedef struct kiriStitchData {
     int32_t number, next;   /* along the line as it was sewn; `next` may be gone. KIRI_NONE: the line ends here */
 } kiriStitchData;
 
+/* A corner of the line of a seam, between a stitch and the next one. */
+typedef struct kiriSeamCorner {
+    int32_t stitch; /* its number */
+    double part;    /* of the way to the next one */
+    kiriLatticePoint at[2];
+} kiriSeamCorner;
+
+/* A point of both drawn lips of a seam: vertices, or places in triangles. */
+typedef struct kiriWeldNode {
+    int32_t stretch; /* index of the stitch before it */
+    double part;     /* of the way to the next stitch */
+    kiriSheetData* sheets[2];
+    int32_t frames[2]; /* of the stitch before it */
+    int32_t vertices[2][3];
+    double shares[2][3];
+    bool isVertex[2];
+    double open;     /* m: beyond it lips are drawn apart */
+    double moves[2]; /* in this tick: share of `missing` that each end moves by */
+    kiriVec3 missing;
+} kiriWeldNode;
+
+/* A vertex that moves with a lip, by the blend of two nodes. */
+typedef struct kiriWeldVertex {
+    int32_t vertex, node, end;
+    float share, weight; /* share of the next node */
+} kiriWeldVertex;
+
+typedef struct kiriWeldNear {
+    float distance; /* relative to the reach; -1: on the lip */
+    int32_t node;
+    float share;
+} kiriWeldNear;
+
+/* The drawn lips of a seam, see kiri_seam.h. */
+typedef struct kiriWeld {
+    uint64_t key;        /* hash of the stitches and meshes of the lists */
+    int64_t vertexCount; /* of the sheets when listed */
+    bool isDrawn;        /* in this tick */
+    KIRI_ARRAY(kiriWeldNode) nodes; /* in the order of the line */
+    KIRI_ARRAY(kiriWeldVertex) vertices;
+} kiriWeld;
+
 typedef struct kiriSeamData {
     kiriSeam id;
     double breakForce; /* N/m; 0: never */
@@ -119,6 +161,8 @@ typedef struct kiriSeamData {
     bool bends;        /* stitches meet in arcs, see kiri_seam.c */
     KIRI_ARRAY(kiriStitchData) stitches;
     KIRI_ARRAY(kiriStitchRow) rows; /* of the stitches, in the current tick */
+    KIRI_ARRAY(kiriSeamCorner) corners;
+    kiriWeld weld;
 } kiriSeamData;
 
 /* State of a recording, see kiri_call.h. */
@@ -181,6 +225,7 @@ struct kiriWorld {
     KIRI_ARRAY(kiriObstacleData*) obstacles; /* in the order of creation */
     KIRI_ARRAY(struct kiriBladeData*) blades;
     KIRI_ARRAY(kiriSeamData*) seams; /* in the order of creation */
+    KIRI_ARRAY(kiriWeldNear) weldNear; /* scratch: one a vertex of a sheet */
     kiriIndices obstacleOrder; /* by the lower x of their box */
     kiriObstacleSearch obstacleSearch;
     KIRI_ARRAY(kiriObstacleSearch) searches; /* one a task that finds touches */

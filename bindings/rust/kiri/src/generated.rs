@@ -2002,7 +2002,7 @@ pub struct Stitch {
     pub rest_a: [f32; 2],
     /// m, in the material
     pub rest_b: [f32; 2],
-    /// m, world: where both points meet. A host that welds the drawn lips puts them there
+    /// m, world: where both drawn lips meet
     pub position: [f32; 3],
     /// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
     pub gap: f32,
