@@ -56,6 +56,13 @@ void Test_SetUp(void (*setUp)(int count, char** words));
     }                                                                                                                  \
     static void name##_Test(void)
 
+/* FIGURE(Name) { ... }: a test of figures that plays long, and runs no line that the tests do not run; not with sanitizers. */
+#if IS_SANITIZED
+#define FIGURE(name) static __attribute__((unused)) void name##_Test(void)
+#else
+#define FIGURE(name) TEST(name)
+#endif
+
 /* SETUP { ... } runs before all tests, with the arguments of main: count and words. */
 #define SETUP                                                                                                          \
     static void SetUp(int count, char** words);                                                                        \

@@ -146,7 +146,7 @@ static double Drop(const Sheet* s, int32_t count)
 
 /* Slits over half and four fifths of a strip add 7.9 and 22.5 mm to its drop, wherever the ends lie in their
    squares. */
-TEST(SlitsBendAsFarAsTheyShould)
+FIGURE(SlitsBendAsFarAsTheyShould)
 {
     static const float half[4] = { 0.05f, -0.01f, 0.05f, 0.025f }, most[4] = { 0.05f, -0.01f, 0.05f, 0.04f };
     static const int32_t counts[5] = { 24, 36, 48, 96, 150 };
@@ -168,7 +168,7 @@ TEST(SlitsBendAsFarAsTheyShould)
 
 /* A strip with three slits from both sides is pulled in its plane: 7.05 kN/m with 80 x 20 shell elements, 6.90 with
    160 x 40. */
-TEST(LigamentsStretchAsTheyShould)
+FIGURE(LigamentsStretchAsTheyShould)
 {
     static const float slits[12] = { 0.08f, -0.01f, 0.08f, 0.035f, 0.12f, -0.01f,
                                      0.12f, 0.035f, 0.1f,  0.06f,  0.1f,  0.015f };
@@ -306,7 +306,7 @@ TEST(EstimateOfARow)
     }
 }
 
-TEST(EstimateOfWideSheets)
+FIGURE(EstimateOfWideSheets)
 {
     static Shell shell;
     static const int32_t counts[4] = { 6, 12, 24, 48 };
@@ -317,7 +317,7 @@ TEST(EstimateOfWideSheets)
     }
 }
 
-TEST(EstimateAroundASlit)
+FIGURE(EstimateAroundASlit)
 {
     static Shell shell;
     static const int32_t counts[12] = { 6, 9, 12, 15, 18, 24, 30, 36, 48, 64, 96, 140 };
@@ -331,7 +331,7 @@ TEST(EstimateAroundASlit)
 }
 
 /* Layouts on which no constant was chosen. */
-TEST(EstimateOfCrookedLayouts)
+FIGURE(EstimateOfCrookedLayouts)
 {
     static Elastica elastica;
     static Shell wide, tongue;
@@ -400,7 +400,7 @@ static void AssertReached(const char* name, const Sheet* s, const Reference* ref
     }
 }
 
-TEST(AccuracyIsReached)
+FIGURE(AccuracyIsReached)
 {
     static Elastica elastica;
     static Shell wide, tongue;

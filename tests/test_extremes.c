@@ -17,7 +17,7 @@ static void AssertWell(const Extreme* e)
     }
 }
 
-TEST(Table)
+FIGURE(Table)
 {
     for (int i = 0; i < extremeCount; ++i) {
         if (!extremes[i].full) {

@@ -487,7 +487,7 @@ static double SofterBy(int columns, int32_t frameCount, float stiffness)
 }
 
 /* A Miura sheet has one degree of freedom, but where folds are as stiff as the facets. */
-TEST(MiuraHasOneSoftMode)
+FIGURE(MiuraHasOneSoftMode)
 {
     for (int32_t frames = 4; frames <= 16; frames += 6) {
         assert_true(SofterBy(2, frames, 0.001f) > 100.0);

@@ -532,7 +532,7 @@ static double ShapesApart(const HungStrip* a, const HungStrip* b)
 
 /* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and
    hangs as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
-TEST(SmoothClampKeepsShape)
+FIGURE(SmoothClampKeepsShape)
 {
     static const int32_t layouts[][2] = { { 0, 32 }, { 9, 32 }, { 14, 48 } };
     for (int i = 0; i < 3 * STRIP_EDGES; ++i) {

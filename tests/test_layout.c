@@ -103,7 +103,7 @@ static double SlitError(int32_t frames, int32_t grid, double angle, bool isThere
     return error;
 }
 
-TEST(SlitSquaresHangAsTheyShould)
+FIGURE(SlitSquaresHangAsTheyShould)
 {
     static const struct {
         int32_t frames;
@@ -124,7 +124,7 @@ TEST(SlitSquaresHangAsTheyShould)
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* Rows of frames with each frame moved by up to a quarter of the spacing. */
-TEST(JitteredRowsHangAsTheyShould)
+FIGURE(JitteredRowsHangAsTheyShould)
 {
     static const struct {
         int32_t rows;
@@ -193,7 +193,7 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     return torque[0] / (2.0 * (1.0 - nu) * D * (double)width * (double)angle / (double)length);
 }
 
-TEST(ZigzagsTwistAsTheyShould)
+FIGURE(ZigzagsTwistAsTheyShould)
 {
     static const int32_t counts[4] = { 8, 12, 16, 24 };
     for (int k = 0; k < 8; ++k) {
@@ -240,7 +240,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     assert_true(fabs(pull - 1.0) < 0.005);
 }
 
-TEST(ClampedStripsAreAsStiffAsTheyShould)
+FIGURE(ClampedStripsAreAsStiffAsTheyShould)
 {
     static const int32_t counts[4] = { 3, 5, 9, 17 };
     for (int k = 0; k < 8; ++k) {
@@ -290,7 +290,7 @@ static double ElongationOfStrip(Hold hold, bool isHinged, int32_t count, double 
     return (far - near - (double)length) / (double)(length * strain);
 }
 
-TEST(SoftStripsAreSeenAsLongAsTheyShould)
+FIGURE(SoftStripsAreSeenAsLongAsTheyShould)
 {
     static const int32_t counts[3] = { 3, 5, 9 };
     for (uint32_t k = 0; k < 12; ++k) {
@@ -338,7 +338,7 @@ static double HeightOfTeardrop(int32_t count, int32_t ticks)
     return height / (double)length;
 }
 
-TEST(TeardropsAreAsHighAsTheyShould)
+FIGURE(TeardropsAreAsHighAsTheyShould)
 {
     static const int32_t counts[4] = { 12, 24, 36, 48 };
     for (int k = 0; k < 8; ++k) {

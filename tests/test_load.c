@@ -83,7 +83,7 @@ static double HeavyError(int along, double gamma, double x, double drop)
     return sqrt(dx * dx + dz * dz) / drop;
 }
 
-TEST(HeavyCantilever)
+FIGURE(HeavyCantilever)
 {
     FILE* file = fopen("tests/data/cantilever_master_curve.csv", "r");
     assert_non_null(file);
@@ -102,7 +102,7 @@ TEST(HeavyCantilever)
 }
 
 /* A clamp across a strip, wherever it lies between the sites: what is beyond it hangs as from its edge. */
-TEST(ClampAcross)
+FIGURE(ClampAcross)
 {
     for (int k = 0; k < 10; ++k) {
         Strip strip = { 0.4, STRIP_WIDTH, STRIP_THICKNESS, 3e8, 1000.0, k < 5 ? 10 : 20 }, free = strip;
@@ -326,7 +326,7 @@ static kiriSheetDef ReactionDef(int model)
 }
 
 /* At rest reactions bear the weight, at the centre of mass. */
-TEST(ReactionsAtRest)
+FIGURE(ReactionsAtRest)
 {
     for (int k = 0; k < 2 * HOLDS; ++k) {
         START_HOST(host);

@@ -224,7 +224,7 @@ static double SteepestOpening(double end, double slant)
 
 /* Wherever in a cell it ends. Lips that stay together as far as their cell does, and then jump apart, have 2.5 in the
    mean, and up to 3.9. */
-TEST(SlitsOpenFromTheirEnd)
+FIGURE(SlitsOpenFromTheirEnd)
 {
     static const double slants[] = { 0.37, -0.2, 0.5 };
     double sum = 0.0, worst = 0.0;

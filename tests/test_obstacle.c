@@ -572,7 +572,7 @@ static kiriObstacleState TickBall(Host* host, kiriObstacle ball, kiriObstacleDef
 }
 
 /* A ball of 100 times the mass of a cloth that is held all round: it stretches the cloth, swings, and comes to rest. */
-TEST(HeavyBodiesRestOnCloth)
+FIGURE(HeavyBodiesRestOnCloth)
 {
     static const float corners[5][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 } };
     for (int substeps = 2; substeps <= 8; substeps += 6) {

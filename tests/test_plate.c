@@ -375,7 +375,7 @@ static void CheckStrip(int layout, int columns, int rows, int model, double nu, 
     Voronoi_Drop(&sheet);
 }
 
-TEST(FreeEdgesAreFree)
+FIGURE(FreeEdgesAreFree)
 {
     static const struct {
         Layout layout;

@@ -228,7 +228,7 @@ static void GoOnAlike(Host* a, Host* b)
 }
 
 /* Two worlds that got other budgets until some tick, and the same from there on. */
-TEST(HashTellsProgress)
+FIGURE(HashTellsProgress)
 {
     int32_t alike[KIRI_READY] = { 0 }, apart[KIRI_READY] = { 0 };
     for (uint32_t run = 1; run <= 300; ++run) {

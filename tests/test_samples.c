@@ -85,7 +85,7 @@ TEST(Table)
 }
 
 /* The scenes' own frames: more, so that what is seen is not strained, in the same pieces. */
-TEST(OwnFrames)
+FIGURE(OwnFrames)
 {
     static const int rows[] = { SPIRAL, KIRIGAMI, VORTEX, FALLING_GUY };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -282,7 +282,7 @@ static void RunWhole(const Row* row, Scene* scene, Watch* watch)
     assert_true(counts.vertices > row->vertices + 2 * corners); /* two lips, and where mesh edges cross */
 }
 
-TEST(SpiralScene)
+FIGURE(SpiralScene)
 {
     SCOPED(Scene, scene, Scene_Stop);
     RunWhole(&table[SPIRAL], &scene, NULL);
@@ -307,7 +307,7 @@ static float HeightOf(const Scene* scene, const Stroke* stroke)
     return height;
 }
 
-TEST(PatchworkScene)
+FIGURE(PatchworkScene)
 {
     SCOPED(Scene, scene, Scene_Stop);
     RunWhole(&table[PATCHWORK], &scene, NULL);
@@ -352,7 +352,7 @@ static double HeightOfMiddle(const Scene* scene)
 
 /* Why the scene has affine frames: under the pull they stretch. The sheet gets narrower with both; rigid ones only move
    apart and together. */
-TEST(RubberStretches)
+FIGURE(RubberStretches)
 {
     for (int plain = 0; plain < 2; plain++) {
         SCOPED(Scene, scene, Scene_Stop);
@@ -370,7 +370,7 @@ TEST(RubberStretches)
 
 /* Cuts let go of nearly all elastic energy, and bring none but what new borders see between affine frames, which have
    no offsets of strains: 5e-5 of all. */
-TEST(RubberScene)
+FIGURE(RubberScene)
 {
     SCOPED(Scene, scene, Scene_Stop);
     double elastic;
@@ -405,7 +405,7 @@ TEST(FlatScene)
 /* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
    though each commit changes the borders of bent regions. */
 /* Folds reach their angles, and cuts through them part the sheet. */
-TEST(FoldScenes)
+FIGURE(FoldScenes)
 {
     static const char* const names[] = { "miura", "card", "crane" };
     static const float angles[3][3] = { { -0.3f, 0.3f, -0.3f }, { 1.57f, 1.57f, -1.57f }, { -3.0f, -3.0f, -3.0f } };
@@ -426,7 +426,7 @@ TEST(FoldScenes)
 }
 
 /* Lips of sewn scenes stay together. The shirt hangs on the shoulders. */
-TEST(SewnScenes)
+FIGURE(SewnScenes)
 {
     static const char* const names[] = { "shirt", "lantern", "patch" };
     for (int i = 0; i < 3; i++) {
@@ -450,7 +450,7 @@ TEST(SewnScenes)
 }
 
 /* All parts are torn along the lines: a strip off a letter, a stamp and a column of two off a sheet of twelve. */
-TEST(TornScenes)
+FIGURE(TornScenes)
 {
     static const double areas[2][3] = { { 0.01728, 0.00432 }, { 9 * 625e-6, 625e-6, 2 * 625e-6 } }; /* m^2 */
     for (int i = 0; i < 2; i++) {
@@ -465,7 +465,7 @@ TEST(TornScenes)
     }
 }
 
-TEST(SpiralIsNotThrown)
+FIGURE(SpiralIsNotThrown)
 {
     SCOPED(Scene, scene, Scene_Stop);
     Start(&scene, "spiral");

@@ -461,7 +461,7 @@ static void DropBall(float mass, float aside)
     assert_true(state.position[2] > 0.04f);
 }
 
-TEST(BagHolds)
+FIGURE(BagHolds)
 {
     DropBall(0.1f, 0.0f);
     DropBall(0.5f, 0.0f);
@@ -610,7 +610,7 @@ static double Pull(int32_t framesA, int32_t framesB, bool peels)
     return 0.002 * tick;
 }
 
-TEST(Strength)
+FIGURE(Strength)
 {
     static const int32_t frames[5][2] = { { 6, 6 }, { 9, 9 }, { 16, 16 }, { 9, 16 }, { 12, 7 } };
     for (int i = 0; i < 10; ++i) {

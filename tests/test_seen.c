@@ -193,7 +193,7 @@ static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pi
 }
 
 /* The detail layer takes the strain out of gathered cloth, and moves no frame; a commit does not make it jump. */
-TEST(DetailOfCurtain)
+FIGURE(DetailOfCurtain)
 {
     enum { GATHER = 60, HANG = 600 };
     for (int32_t frames = 25; frames <= 100; frames += 75) {

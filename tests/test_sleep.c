@@ -294,7 +294,7 @@ static int CrumpleSheet(int32_t skinning, float tilt, double* lowest)
 }
 
 /* A cloth that falls on its edge crumples. It lies on the floor, and not in it. Few starts of ten stay awake. */
-TEST(CrumpledSheetSleeps)
+FIGURE(CrumpledSheetSleeps)
 {
     static const float tilts[] = { 0.01f, 0.02f, 0.03f, 0.05f, 0.08f };
     double lowest = 0.0;

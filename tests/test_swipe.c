@@ -285,7 +285,7 @@ static void CheckOnceWrong(int32_t runs, const int32_t* seeds, int32_t count)
     }
 }
 
-TEST(SwipeOnceWrong)
+FIGURE(SwipeOnceWrong)
 {
     static const int32_t sways[] = { 88,   146,  195,  289,  327,  373,  430,  737,  812,   993,   1127,
                                      1305, 1330, 1387, 1555, 1804, 1876, 1896, 2681, 10016, 11880, 13339 };

@@ -127,7 +127,7 @@ static double Strip_PullToTear(Strip* s, double more)
 }
 
 /* A crack of length 2 a amid a strip of width W tears at the stress sigma: sigma^2 pi a sec(pi a / W) = toughness E. */
-TEST(CentreCrackTearsAtItsLoad)
+FIGURE(CentreCrackTearsAtItsLoad)
 {
     static const int32_t frames[] = { 32, 64, 100 };
     for (int k = 0; k < 3; ++k) {
@@ -177,7 +177,7 @@ static void TearTo(Strip* s, double u, double tip[2])
     }
 }
 
-TEST(TearTurnsAcrossThePull)
+FIGURE(TearTurnsAcrossThePull)
 {
     static const int32_t frames[] = { 32, 64 };
     for (int k = 0; k < 2; ++k) {
@@ -194,7 +194,7 @@ TEST(TearTurnsAcrossThePull)
     }
 }
 
-TEST(TearFollowsTheGrain)
+FIGURE(TearFollowsTheGrain)
 {
     for (int side = -1; side <= 1; side += 2) {
         Strip s;
@@ -253,7 +253,7 @@ TEST(TearStopsAtACut)
 
 /* A tear of a plate that two pins draw apart beside a notch slows down by itself, so that its surplus does not become
    motion: work of the pins less the energy that the sheet keeps is toughness times torn section. */
-TEST(TearTakesItsEnergy)
+FIGURE(TearTakesItsEnergy)
 {
     static const int32_t frames[] = { 32, 64 };
     for (int k = 0; k < 2; ++k) {
@@ -366,7 +366,7 @@ static kiriResult Trouser_Tick(Trouser* t, kiriWorld* world, double speed)
 }
 
 /* A leg pulls with toughness h / 2. */
-TEST(TrouserPullsWithItsForce)
+FIGURE(TrouserPullsWithItsForce)
 {
     static const struct {
         double young, speed, limit;
@@ -399,7 +399,7 @@ TEST(TrouserPullsWithItsForce)
 
 /* Three by two stamps with perforations between them. Springs hold one stamp, and pull a neighbor away by random points in
    a random direction. All lips are on the perforations. */
-TEST(StampsPartAlongTheirPerforations)
+FIGURE(StampsPartAlongTheirPerforations)
 {
     static const float lines[] = { -0.01f, 0.02f,  0.085f, 0.02f, 0.05f,  -0.01f,
                                    0.05f,  0.05f, 0.025f, 0.05f, 0.025f, -0.01f };
@@ -463,7 +463,7 @@ TEST(StampsPartAlongTheirPerforations)
 }
 
 /* A tear stops at a ripstop, and crosses it at a force larger by about the root of its factor. */
-TEST(RipstopsStopTears)
+FIGURE(RipstopsStopTears)
 {
     static const float line[] = { 0.05f, -0.01f, 0.05f, 0.21f };
     for (int k = 0; k < 2; ++k) {

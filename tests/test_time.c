@@ -277,7 +277,7 @@ static double HangCloth(int32_t frames, int32_t iterations, float* positions, in
 }
 
 /* Two systems a substep are enough for cloth under tension: it hangs where eight systems put it. */
-TEST(TautClothConverges)
+FIGURE(TautClothConverges)
 {
     for (int32_t frames = 144; frames <= 272; frames += 64) {
         static float few[3000], many[3000];
