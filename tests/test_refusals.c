@@ -5,7 +5,7 @@
 
 #include "layout_hash.h"
 
-/* With sanitizers each seventh allocation of each fourth call is refused. */
+/* Each seventh allocation of each fourth call is refused with sanitizers. */
 enum { STEP = IS_SANITIZED ? 7 : 1, CALLS = IS_SANITIZED ? 4 : 1 };
 
 /* Where the work on a cut waits. */
