@@ -360,8 +360,8 @@ manual-golden: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 # Those that take longest begin first: what is begun last keeps one processor, and the others wait.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
-LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,samples refusals tear update parting extremes load games promises seen \
-             estimate joined part_budget blade))
+LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,blade estimate extremes games joined layout parting part_budget piece \
+             promises refusals samples saves seam seen sleep swipe tear time update))
 
 .PHONY: $(TEST_RUNS) run-tests coverage
 
@@ -384,14 +384,14 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-# Of two worlds each 30th save.
+# Of two worlds each 100th save; with sanitizers each 1000th.
 .PHONY: run-sweep_saves
 
 run-sweep_saves: $(BUILD)/tests/sweep_saves
-	@if $< 34 36 1 30 > $<.log 2>&1; then $(PASSED); \
+	@if $< 34 36 1 $(if $(filter sanitize,$(config)),1000,100) > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-all-tests: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
+all-tests: run-sweep_saves $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) \
     $(RUN) $(BOX2D) $(PLAY) check unrun headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
 	@echo "all tests passed ($(config))"
 
