@@ -979,7 +979,7 @@ type Stitch struct {
 	RestA [2]float32
 	// m, in the material
 	RestB [2]float32
-	// m, world: where both drawn lips meet
+	// m, world: where both drawn lips meet; their middle while they are apart
 	Position [3]float32
 	// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
 	Gap float32

@@ -1102,7 +1102,7 @@ export class Stitch {
     restA: number[];
     /** m, in the material */
     restB: number[];
-    /** m, world: where both drawn lips meet */
+    /** m, world: where both drawn lips meet; their middle while they are apart */
     position: number[];
     /** m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
     gap: number;

@@ -838,7 +838,7 @@ KIRI_API kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float sti
 typedef struct kiriStitch {
     kiriSheet sheetA, sheetB;
     float restA[2], restB[2]; /* m, in the material */
-    float position[3];        /* m, world: where both drawn lips meet */
+    float position[3];        /* m, world: where both drawn lips meet; their middle while they are apart */
     float gap;      /* m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
     float force[3]; /* N, on sheet A: mean over the last tick that moved it */
     float angle;    /* rad, as restAngle */

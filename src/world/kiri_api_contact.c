@@ -455,9 +455,10 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
     kiriVec3 drawn = { 0.0, 0.0, 0.0 };
     KIRI_TIMES(end, 2) {
         kiriPointPlace place;
-        bool isFound = kiriPoint_Find(end == 0 ? a : b, from->at[end], &place);
-        KIRI_ASSERT(isFound);
-        drawn = isFound ? kiriVec3_AddScaled(drawn, 0.5, kiriPoint_Drawn(end == 0 ? a : b, &place)) : drawn;
+        const kiriSheetData* sheet = end == 0 ? a : b;
+        if (kiriPoint_Find(sheet, from->at[end], &place)) {
+            drawn = kiriVec3_AddScaled(drawn, 0.5, kiriPoint_Drawn(sheet, &place));
+        }
     }
     kiriVec3_Store(stitch->position, drawn);
     stitch->gap = (float)kiriVec3_Distance(x, y);

@@ -13,8 +13,7 @@
 #define GRAVITY 9.81      /* m/s^2 */
 #define MOST_STITCHES 4096
 #define MOST_CORNERS 4096 /* of the lines: those after them are cut off */
-
-/* Of welds. */
+/* Of welds: */
 #define ON_SEAM 2048 /* lattice steps: a vertex as near to the line of a seam is on its lip */
 #define INTO_SHEET 512 /* lattice steps: from a border into the material */
 #define WELD_REACH 1.0  /* distances of frames: way over which offsets fade */
@@ -630,9 +629,9 @@ void kiriSeams_End(kiriWorld* world, double dt)
 
 /* ---- Welds: drawn lips ------------------------------------------------------------------------------------------- */
 
-/* Stitches hold points that frames carry. Drawn lips differ by millimetres: patches of a smooth skin
-   bend, and weights are not linear between stitches. So the drawn surface gets an offset (kiriDetail): vertices of both lips
-   are drawn at one point, and the offset fades over a distance of frames. Motion, contacts and blades do not see it. */
+/* Stitches hold points that frames carry. Drawn lips differ by millimetres: patches of a smooth skin bend, and weights are
+   not linear between stitches. So the drawn surface gets an offset (kiriDetail): vertices of both lips are drawn at one
+   point, and the offset fades over a distance of frames. Motion, contacts and blades do not see it. */
 
 /* ---- Stretches --------------------------------------------------------------------------------------------------- */
 
@@ -942,8 +941,8 @@ static void ListWeld(kiriWorld* world, kiriSeamData* seam)
     KIRI_TIMES(k, 2 * seam->stitches.count) {
         const kiriSheetData* sheet = SheetOfStitch(world, seam, k / 2, k % 2);
         bool isFirst = true;
-        KIRI_TIMES_WHILE(isFirst, before, k / 2) {
-            isFirst = SheetOfStitch(world, seam, before, k % 2) != sheet;
+        KIRI_TIMES_WHILE(isFirst, back, k / 2) { /* the last one first: it mostly has the same sheet */
+            isFirst = SheetOfStitch(world, seam, k / 2 - 1 - back, k % 2) != sheet;
         }
         if (isFirst) {
             ListLipVertices(world, seam, weld, sheet, k % 2);

@@ -1260,7 +1260,7 @@ namespace Kiri
         public Float2 RestA;
         /// <summary>m, in the material</summary>
         public Float2 RestB;
-        /// <summary>m, world: where both drawn lips meet</summary>
+        /// <summary>m, world: where both drawn lips meet; their middle while they are apart</summary>
         public Float3 Position;
         /// <summary>m: distance of the two points; a stitch yields by micrometres under the sheet's weight</summary>
         public float Gap;

@@ -442,7 +442,7 @@ kiri.DRAW_ALL = 2047
 ---@field sheetB? kiri.Sheet
 ---@field restA? number[]|ffi.cdata* # m, in the material
 ---@field restB? number[]|ffi.cdata* # m, in the material
----@field position? number[]|ffi.cdata* # m, world: where both drawn lips meet
+---@field position? number[]|ffi.cdata* # m, world: where both drawn lips meet; their middle while they are apart
 ---@field gap? number # m: distance of the two points; a stitch yields by micrometres under the sheet's weight
 ---@field force? number[]|ffi.cdata* # N, on sheet A: mean over the last tick that moved it
 ---@field angle? number # rad, as restAngle

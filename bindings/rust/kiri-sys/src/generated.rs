@@ -918,7 +918,7 @@ pub struct kiriStitch {
     pub restA: [f32; 2],
     /// m, in the material
     pub restB: [f32; 2],
-    /// m, world: where both drawn lips meet
+    /// m, world: where both drawn lips meet; their middle while they are apart
     pub position: [f32; 3],
     /// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
     pub gap: f32,

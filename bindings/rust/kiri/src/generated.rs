@@ -2002,7 +2002,7 @@ pub struct Stitch {
     pub rest_a: [f32; 2],
     /// m, in the material
     pub rest_b: [f32; 2],
-    /// m, world: where both drawn lips meet
+    /// m, world: where both drawn lips meet; their middle while they are apart
     pub position: [f32; 3],
     /// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
     pub gap: f32,
