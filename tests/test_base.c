@@ -74,24 +74,10 @@ static bool HasHigherKey(const void* context, int32_t a, int32_t b)
 /* Keys in the patterns that sorts dislike. */
 static int32_t KeyOf(int pattern, int32_t i, int32_t count, uint32_t* seed)
 {
-    switch (pattern) {
-    case 0:
-        return (int32_t)(Random(seed) % 1000000);
-    case 1:
-        return i;
-    case 2:
-        return -i;
-    case 3:
-        return (int32_t)(Random(seed) % 3);
-    case 4:
-        return i < count / 2 ? i : count - i;
-    case 5:
-        return i % 2 == 0 ? i : -i;
-    case 6:
-        return i == count / 2 ? 0 : i;
-    default:
-        return 7;
-    }
+    const int32_t random = (int32_t)(Random(seed) % 1000000);
+    const int32_t keys[] = { random, i, -i, random % 3, i < count / 2 ? i : count - i, i % 2 == 0 ? i : -i,
+                             i == count / 2 ? 0 : i, 7 };
+    return keys[pattern];
 }
 
 TEST(SortsAnything)

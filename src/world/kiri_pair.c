@@ -168,8 +168,8 @@ static void ForgetTouches(kiriWorld* world)
         kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
         kiriIndexSpan span = ProbesOf(&world->pairs.bodies.data[i]);
         KIRI_EACH_INDEX(k, span) {
-            probes->touch.data[2 * (size_t)span.data[k]] = KIRI_NONE;
-            probes->touch.data[2 * (size_t)span.data[k] + 1] = KIRI_NONE;
+            int32_t* touch = &probes->touch.data[2 * (size_t)span.data[k]];
+            touch[0] = touch[1] = KIRI_NONE;
         }
     }
     world->pairs.touches.count = 0;
@@ -232,19 +232,16 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
     pair->touches = 0;
     KIRI_FROM_TO_WHILE(ok, i, pair->nears.first, pair->nears.first + pair->nears.count) {
         const kiriNear* near = &pairs->nears.data[i];
-        bool isUpper = near->body == pair->bodies[0];
+        bool isUpper = near->body == pair->bodies[0], isNeeded = isUpper || IsProbeNeeded(lower, upper, near->vertex);
         kiriPlace3 probe = VertexPlace(isUpper ? upper : lower, near->vertex);
         kiriPlace3 place = TrianglePlace(isUpper ? lower : upper, near->triangle, near->share);
-        bool isNeeded = isUpper || IsProbeNeeded(lower, upper, near->vertex);
         double along = pair->side;
-        if (!isUpper) {
-            along *= kiriVec3_Dot(kiriVertex_SkinNormal(lower, near->vertex), near->normal);
-        }
+        along *= isUpper ? 1.0 : kiriVec3_Dot(kiriVertex_SkinNormal(lower, near->vertex), near->normal);
         double sign = along >= 0.0 ? 1.0 : -1.0;
         kiriPairTouch touch = { .key = KeyOfTouch(pair->upper, pair->lower, isUpper, (uint64_t)near->vertex),
                                 .upper = isUpper ? probe : place, .lower = isUpper ? place : probe,
                                 .normal = kiriVec3_Scale(sign, near->normal),
-                                .gap = isUpper ? sign * near->height : -sign * near->height, .distance = distance };
+                                .gap = (isUpper ? sign : -sign) * near->height, .distance = distance };
         if (isNeeded && fabs(along) > ALONG) {
             double above = CompleteTouch(world, &touch, distance, dt);
             ok = !(above < (1.0 + MARGIN) * distance) || AddTouch(world, &touch);
@@ -292,9 +289,8 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     KIRI_EACH_INDEX(i, pairs->pairs) {
         const kiriTouchingPair* pair = &pairs->pairs.data[i];
         const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
-        bool areThere = upper != NULL && lower != NULL && upper != lower;
-        areThere = areThere && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
-        if (areThere && pair->touches) {
+        if (pair->touches && upper != NULL && lower != NULL && upper != lower && kiriPiece_IsAwake(upper) &&
+            kiriPiece_IsAwake(lower)) {
             kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
         }
     }
@@ -617,6 +613,7 @@ typedef struct Search {
     kiriNear found[2];  /* nearest to the probe; of a fold: in front, and behind */
     double least[2];    /* m^2: of their distance; or of half of the edge */
     int32_t edge, a, b; /* half-edge and its ends */
+    int32_t first;      /* index of its first touch */
     bool ok;
 } Search;
 
@@ -903,7 +900,8 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
     return sum;
 }
 
-/* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. */
+/* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. Touches of an edge
+   are sorted by key, since a load builds the tree anew and then visits triangles in another order. */
 static double LookAtCrossing(void* context, int32_t triangle)
 {
     Search* search = context;
@@ -916,19 +914,19 @@ static double LookAtCrossing(void* context, int32_t triangle)
     KIRI_TIMES(k, 3) {
         areApart = areApart && c[k] != search->a && c[k] != search->b;
     }
-    kiriNear near = { .vertex = search->a, .triangle = triangle };
+    kiriNear near = { .triangle = triangle };
     kiriVec3 along = kiriVec3_Sub(q, p);
     double* part = &touch.upper.share[1];
     kiriSurface_Corners(surface, triangle, corner);
     if (!areApart || !kiriTriangle_Cross(corner, p, along, part, near.share) || !(*part > 0.0 && *part <= 1.0)) {
         return search->least[0];
     }
+    kiriVec3 at = kiriVec3_AddScaled(p, *part, along);
     along = kiriVec3_Normalize(along);
     kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
-    kiriVec3 at = kiriVec3_AddScaled(p, touch.upper.share[1], kiriVec3_Sub(q, p));
     kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
     touch.upper.vertex[1] = search->b;
-    touch.upper.share[0] = 1.0 - touch.upper.share[1];
+    touch.upper.share[0] = 1.0 - *part;
     touch.lower = TrianglePlace(sheet, triangle, near.share);
     if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * sheet->settings.foldThickness)) {
         return search->least[0];
@@ -936,12 +934,18 @@ static double LookAtCrossing(void* context, int32_t triangle)
     bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
     KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
     sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
-    near.vertex = touch.upper.share[1] < 0.5 ? search->a : search->b;
+    near.vertex = *part < 0.5 ? search->a : search->b;
     touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)search->a, (uint64_t)search->b, (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = FoldDistance(sheet, &near, 0.0);
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
-        search->ok = search->ok && kiriArray_Push(&search->world->memory, &search->world->pairs.touches, touch);
+        kiriPairs* pairs = &search->world->pairs;
+        search->ok = search->ok && kiriArray_Push(&search->world->memory, &pairs->touches, touch);
+        kiriPairTouch* data = pairs->touches.data;
+        for (int32_t i = pairs->touches.count - 1; search->ok && i > search->first && data[i - 1].key > touch.key; --i) {
+            data[i] = data[i - 1];
+            data[i - 1] = touch;
+        }
     }
     return search->least[0];
 }
@@ -956,6 +960,7 @@ static bool TouchTangles(Search* search)
     KIRI_TIMES_WHILE(search->ok, h, 3 * sheet->mesh.triangles.count) {
         bool isOpen = kiriMesh_IsOpen(&sheet->mesh, h);
         search->edge = h;
+        search->first = search->world->pairs.touches.count;
         search->a = kiriMesh_Tail(&sheet->mesh, h);
         search->b = kiriMesh_Tail(&sheet->mesh, kiriEdge_Next(h));
         uint8_t either = marks[search->a] | marks[search->b], differ = marks[search->a] ^ marks[search->b];
