@@ -57,6 +57,7 @@ NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
 NEEDS_bench := $(NEEDS_lib) libcmocka-dev
+NEEDS_figures := $(NEEDS_bench) libbullet-dev
 NEEDS_accuracy := $(NEEDS_lib)
 NEEDS_trade := $(NEEDS_lib) python3-matplotlib
 NEEDS_contact := $(NEEDS_lib) libbox2d-dev
@@ -264,9 +265,10 @@ coverage: packages-test
 	@sh tests/coverage.sh build/coverage 95
 
 # Measures the numbers that documents quote: tests/data/figures.txt.
-figures: packages-bench
-	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/,bench_scenes bench_features bench_growth accuracy)
-	@mkdir -p build/accuracy
+figures: packages-figures
+	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/,bench_scenes bench_features bench_growth bench_bullet accuracy)
+	@mkdir -p build/accuracy build/bench
+	@$(BUILD)/tests/bench_bullet > build/bench/bullet.csv
 	@for bench in scenes features growth; do $(BUILD)/tests/bench_$$bench || exit 1; done
 	@$(BUILD)/tests/accuracy tests/data build/accuracy cantilever
 	@$(PYTHON) tests/figures.py --measure
@@ -612,6 +614,11 @@ $(TESTS): $(BUILD)/tests/main.c.o
 $(BUILD)/tests/test_box2d: $(BUILD)/tests/test_box2d.cpp.o $(BOX2D_LAWS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lcmocka -lbox2d -lm
+
+$(BUILD)/tests/bench_bullet.cpp.o: override CXXFLAGS += -isystem /usr/include/bullet
+$(BUILD)/tests/bench_bullet: $(BUILD)/tests/bench_bullet.cpp.o $(BUILD)/libkiri.a
+	@echo "  $@"
+	@$(LINK) -o $@ $^ -lBulletSoftBody -lBulletDynamics -lBulletCollision -lLinearMath -lm
 
 $(BUILD)/tests/test_net: $(BUILD)/tests/test_net.cpp.o $(GAME_PARTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"

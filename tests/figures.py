@@ -82,6 +82,13 @@ def accuracy():
             "strip": f"{max(errors[9]):.1g} %"}
 
 
+def bullet():
+    """The same cloth by Bullet with 10 iterations."""
+    row = rows("bench/bullet.csv")[1]
+    return {"bullet": f"{float(row['bullet ms']) / float(row['kiri ms']):.0f} times as long, and hangs "
+                      f"{100 * (float(row['drop']) - 1):.0f} % too low"}
+
+
 def read():
     parts = re.split(r"^\[(\S+)\]\n", FILE.read_text(encoding="utf-8"), flags=re.M)
     return {name: text.strip("\n") for name, text in zip(parts[1::2], parts[2::2])}
@@ -89,7 +96,7 @@ def read():
 
 def main():
     if sys.argv[1:] == ["--measure"]:
-        measured = {**scenes(), **features(), **growth(), **accuracy()}
+        measured = {**scenes(), **features(), **growth(), **accuracy(), **bullet()}
         FILE.write_text("".join(f"[{name}]\n{text}\n\n" for name, text in measured.items())[:-1], encoding="utf-8")
     figures, faults, used = read(), [], set()
 
