@@ -103,7 +103,7 @@ Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, Canva
     }
     glGenTextures(3, canvas->shadowTextures);
     glGenTextures(1, &canvas->depthTexture);
-    canvas->shader = oversampling > 2 ? MakeShader() : 0;
+    canvas->shader = MakeShader();
     for (int32_t i = 0; i < TEXTURES; i++) {
         glGenTextures(1, &canvas->textures[i].name);
     }
@@ -575,7 +575,11 @@ static void AddLight(Canvas* canvas)
     glUniform1i(glGetUniformLocation(canvas->shader, "hasPrint"), 0); /* of bodies */
     glBlendFunc(GL_SRC_ALPHA, GL_ONE);
     glDepthFunc(GL_LEQUAL);
+    glEnable(GL_STENCIL_TEST); /* once where two faces lie in one plane */
+    glStencilFunc(GL_EQUAL, 0, 1);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
     DrawThings(canvas, true);
+    glDisable(GL_STENCIL_TEST);
     glDepthFunc(GL_LESS);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(0);
@@ -672,7 +676,7 @@ bool Canvas_Finish(Canvas* canvas, Image* image)
         }
     }
     glViewport(0, 0, columns, rows);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     DrawBackground(canvas);
     glEnable(GL_BLEND);
     DrawGrounds(canvas);

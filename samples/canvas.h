@@ -74,9 +74,8 @@ struct OverlayText;
 /* Draws a text into the current picture with `scale` pixels a unit of the overlay. */
 typedef void CanvasTextDrawer(const struct OverlayText* text, float scale);
 
-/* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4); from 3 on things throw shadows on each
-   other. Null without memory, or where no OpenGL can do this size. One canvas at a time. Null for drawText: texts are left
-   out. */
+/* The picture has width x height pixels, each the mean of oversampling^2 (1 to 4). Null without memory, or where no OpenGL
+   can do this size. One canvas at a time. Null for drawText: texts are left out. */
 Canvas* Canvas_Create(int32_t width, int32_t height, int32_t oversampling, CanvasTextDrawer* drawText);
 void Canvas_Destroy(Canvas* canvas);
 

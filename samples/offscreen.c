@@ -38,6 +38,8 @@ static bool MakeContext(Offscreen* offscreen)
                               8,
                               EGL_DEPTH_SIZE,
                               24,
+                              EGL_STENCIL_SIZE,
+                              8,
                               EGL_NONE };
     const EGLint size[] = { EGL_WIDTH, offscreen->columns, EGL_HEIGHT, offscreen->rows, EGL_NONE };
     EGLConfig config;
@@ -72,7 +74,7 @@ static void ReadPixels(Offscreen* offscreen)
 
 static bool MakeContext(Offscreen* offscreen)
 {
-    offscreen->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, NULL);
+    offscreen->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, NULL);
     if (offscreen->context == NULL || !OSMesaMakeCurrent(offscreen->context, offscreen->pixels, GL_UNSIGNED_BYTE,
                                                          offscreen->columns, offscreen->rows)) {
         return false;

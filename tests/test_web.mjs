@@ -41,6 +41,12 @@ async function drag(tab, points, steps = 6, rest = false) {
         await tab.evaluate(() => globalThis.game.step(1 / 60));
     }
     await tab.mouse.up();
+    await tab.evaluate(() => { // until no cut waits for its work, which has a budget
+        let ticks = 0;
+        do {
+            globalThis.game.step(1 / 60);
+        } while (globalThis.game.simulation.pending && ++ticks < 120);
+    });
 }
 
 const pieces = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getCounts().pieces);

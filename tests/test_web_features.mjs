@@ -144,7 +144,7 @@ async function scissorsSnip(tab) {
     await press(tab, "Scissors");
     await tab.evaluate(() => globalThis.heard.length = 0);
     await drag(tab, await across(tab, 0.2), 8);
-    await frame(tab, 4);
+    await settle(tab);
     assert.equal((await areas(tab)).filter((area) => area > 1e-4).length, 2, "scissors part the sheet");
     const snips = await tab.evaluate(() => globalThis.heard.filter(([what]) => what === "start").length);
     assert.ok(snips >= 20 && snips <= 34, `${snips} snips of 11 mm along 300 mm`);

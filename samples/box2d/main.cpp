@@ -218,7 +218,7 @@ void AddBodyShape(Canvas* canvas, const b2Body& body, Outlines* outlines)
 bool Paint(Simulation& simulation, Canvas* canvas, EdgeLines* edges, Image* image)
 {
     static const uint8_t stripes[12] = { 255, 255, 255, 190, 205, 215, 255, 255, 255, 190, 205, 215 };
-    const CanvasCamera camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.2f }, 26.0f, 0.0f };
+    const CanvasCamera camera = { { 0.75f, -2.4f, 0.9f }, { 0.05f, 0.0f, 0.22f }, 22.5f, 0.0f };
     const CanvasTexture texture = { stripes, 2, 2, { 0.0f, 0.0f }, 0.1f, 0.1f, 0 };
     kiriMesh mesh;
     if (kiriSheet_GetMesh(simulation.world, simulation.sheet, &mesh) != KIRI_OK || !EdgeLines_Find(edges, &mesh)) {
