@@ -249,7 +249,7 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
 
 /* Moves the frames of a body by dt. Links, corners and area elements must be the committed ones; normals of contacts
    must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
-   KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more). Returns -1 if the motion is not
+   KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more) and a fresh start. Returns -1 if the motion is not
    finite: then the frames are unchanged. Allocates nothing. Reads forces on frames and does not clear them; adds to
    reactions of rows and of held frames. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,

@@ -1122,10 +1122,10 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
 int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most)
 {
     KIRI_ASSERT(iterations >= 1 && iterations <= most);
-    int32_t done = 0, last = iterations + SECOND_CHANCES;
+    int32_t done = 0, last = kiriMin(iterations + SECOND_CHANCES, most);
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system);
-    while (isLeft && done < most && done < last) {
+    while (isLeft && done < last) {
         if (!IterateOnce(solver, system)) {
             return -1;
         }
@@ -1138,16 +1138,15 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
         }
         if (!isLeft) {
             kiriSolver_FindGains(solver, system);
-            bool isSuspect = IsSuspect(solver);
-            isBad = isSuspect && solver->search.suspects > 1;
-            solver->search.suspects = isSuspect ? solver->search.suspects + 1 : 0;
+            solver->search.suspects = IsSuspect(solver) ? solver->search.suspects + 1 : 0;
+            isBad = solver->search.suspects > 2;
             isLeft = IsUnfinished(solver, done);
         }
-        if (isLeft && !isFresh && (done == last || done == most)) {
+        if (isLeft && !isFresh && done == last) {
             isLeft = Restart(solver, system);
             isFresh = true;
-            last += FRESH_STARTS;
-        } else if (isBad && done < most && done < last) {
+            last += FRESH_STARTS; /* beyond `most`, or a small budget would hold the body still for good */
+        } else if (isBad && done < last) {
             solver->search.wanted = done + iterations;
             TakeAnew(solver, system);
         }

@@ -337,12 +337,14 @@ static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, i
                 kiriFollow_Step(world->sheets.data[i], s, substeps, dt / substeps);
             }
         }
-        left = kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - s);
+        left = kiriMax(kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - s), 1);
         if (!StepCluster(world, cluster, dt / substeps, left, work)) {
             return KIRI_FAILED;
         }
         for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {
-            kiriQuota_Take(systems, kiriSolver_ItemsOf(work[k]));
+            int64_t done = kiriSolver_ItemsOf(work[k]);
+            systems->left = kiriMax(systems->left - done, 0);
+            systems->used += done;
         }
     }
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
@@ -354,8 +356,8 @@ void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t subs
     kiriProgress progress = TakeSubsteps(world, cluster, dt, substeps, systems);
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
-        bool isMoved = !sheet->rest.asleep;
-        world->moves.of.data[i].progress = isMoved ? progress : KIRI_DONE;
-        kiriMotion_End(sheet, isMoved ? progress : KIRI_DONE, isMoved, dt);
+        kiriProgress* own = &world->moves.of.data[i].progress;
+        *own = sheet->rest.asleep ? KIRI_DONE : progress;
+        kiriMotion_End(sheet, *own, !sheet->rest.asleep, dt);
     }
 }

@@ -742,11 +742,11 @@ static void EndMoved(const MoveTask* task, int32_t i, kiriQuota* systems)
     if (cluster != KIRI_NONE && cluster != i) {
         return;
     }
-    while (i != KIRI_NONE) {
+    systems->left = kiriMax(systems->left - world->moves.of.data[i].systems, 0);
+    systems->used += world->moves.of.data[i].systems;
+    for (; i != KIRI_NONE; i = world->islands.next.data[i]) {
         GiveImpulses(task, i, false);
-        kiriQuota_Take(systems, world->moves.of.data[i].systems);
         world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[i]->solver);
-        i = cluster != KIRI_NONE ? world->islands.next.data[i] : KIRI_NONE;
     }
 }
 
