@@ -108,23 +108,31 @@ static bool ReserveBodies(kiriSolver* s, const kiriSystem* next)
            kiriArray_Reserve(memory, &s->moved.links, links);
 }
 
+/* Reserves for elements of the largest body, and for clamps. Fails on out of memory. */
+static bool ReserveElements(kiriSolver* s)
+{
+    int64_t elements = s->mostElements + s->clamps.capacity, strains = KIRI_MOST_STRAINS * elements;
+    return kiriArrays_Reserve(s->memory, strains, &s->stiffness, &s->loss, &s->startStrain, &s->nowStrain) &&
+           kiriArray_Reserve(s->memory, &s->stopping, elements);
+}
+
 /* Reserves room for steps of a body. Fails on out of memory. */
 static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
 {
     kiriMemory* memory = s->memory;
-    int64_t frames = body->frameCount, elements = kiriElement_Count(body), links = body->linkCount;
+    int64_t frames = body->frameCount, links = body->linkCount;
     bool hasTraces = kiriElement_CornerCount(body) > 0 && !kiriMechanics_IsAffine(&body->mechanics);
     int64_t traced = hasTraces ? KIRI_TRACED * 2 * s->size * links : 0, most = kiriElement_MostMembers(body);
-    int64_t strains = KIRI_MOST_STRAINS * elements, rows = KIRI_MOST_STRAINS * most;
+    int64_t rows = KIRI_MOST_STRAINS * most;
     bool isPlastic = body->material.yieldStress > 0.0f;
     int64_t yields = isPlastic ? links : 0;
+    s->mostElements = kiriMax((int64_t)kiriElement_Count(body), s->mostElements);
     return kiriArrays_Reserve(memory, yields, &s->plastics, &s->flows) &&
            kiriArray_Reserve(memory, &s->regions, isPlastic ? frames : 0) &&
            kiriArrays_Reserve(memory, links, &s->linkParts, &s->strainOffsets) &&
            kiriArrays_Reserve(memory, frames, &s->before, &s->after, &s->predictions, &s->start, &s->poses, &s->trial,
                               &s->sources, &s->materials) &&
-           kiriArrays_Reserve(memory, strains, &s->stiffness, &s->loss, &s->startStrain, &s->nowStrain) &&
-           kiriArray_Reserve(memory, &s->tracedRows, traced) && kiriArray_Reserve(memory, &s->stopping, elements) &&
+           ReserveElements(s) && kiriArray_Reserve(memory, &s->tracedRows, traced) &&
            kiriArrays_Reserve(memory, s->size * frames, &s->force, &s->move) &&
            kiriArray_Reserve(memory, &s->members, most) && kiriArray_Reserve(memory, &s->rows, rows) &&
            kiriArray_Reserve(memory, &s->J, rows * s->size) && kiriArray_Reserve(memory, &s->airs, frames);
@@ -375,7 +383,7 @@ static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64
 {
     kiriMemory* memory = solver->memory;
     return kiriArray_Reserve(memory, &solver->pins, pins) &&
-           kiriArrays_Reserve(memory, clamps, &solver->clamps, &solver->clampRows) &&
+           kiriArrays_Reserve(memory, clamps, &solver->clamps, &solver->clampRows) && ReserveElements(solver) &&
            kiriArray_Reserve(memory, &solver->contacts, contacts);
 }
 
@@ -622,7 +630,7 @@ static void TakeElements(kiriSolver* solver, const kiriIslandBody* member)
 static kiriSystem SumSystems(const kiriSolver* solver, const kiriIslandBody* bodies, int32_t count)
 {
     kiriSystem system = *bodies[0].sheet;
-    system.frameCount = system.linkCount = system.cornerCount = 0;
+    system.frameCount = system.linkCount = system.cornerCount = system.clampCount = 0;
     KIRI_TIMES(n, count) {
         const kiriSolverBody* body = BodyOfMember(&bodies[n]);
         const kiriSystem* sheet = bodies[n].sheet;
@@ -936,19 +944,24 @@ static const kiriAreaElement* AreaElementOf(const kiriSystem* system, int32_t k)
 
 int kiriElement_StrainCount(const kiriSystem* system, int32_t k)
 {
-    bool planar = system->mechanics.planar;
+    bool planar = system->mechanics.planar, isAffine = kiriMechanics_IsAffine(&system->mechanics);
     if (kiriElement_Corner(system, k) != NULL) {
-        return planar || kiriMechanics_IsAffine(&system->mechanics) ? 1 : KIRI_TRACES;
+        return planar || isAffine ? 1 : KIRI_TRACES;
     }
     if (kiriElement_Link(system, k) == NULL) {
         return AreaElementOf(system, k)->lastRow - AreaElementOf(system, k)->firstRow;
     }
-    return kiriStrain_Count(kiriMechanics_IsAffine(&system->mechanics), planar);
+    return isAffine ? (planar ? (int)KIRI_AFFINE_BENDING : (int)KIRI_AFFINE_STRAINS)
+                    : (planar ? (int)KIRI_PLANE_BENDING + 1 : (int)KIRI_STRAINS);
 }
 
 int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members)
 {
     const kiriLink* link = kiriElement_Link(system, k);
+    if (kiriElement_Clamp(system, k) != NULL) {
+        members[0] = kiriElement_Clamp(system, k)->frame;
+        return 1;
+    }
     if (link != NULL) {
         KIRI_ASSERT(link->i >= 0 && link->i < link->j && link->j < system->frameCount);
         members[0] = link->i;
@@ -972,10 +985,8 @@ int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* member
 int32_t kiriElement_MostMembers(const kiriSystem* system)
 {
     int32_t most = kiriElement_CornerCount(system) > 0 ? 4 : 2;
-    for (int32_t k = kiriElement_LinkCount(system) + kiriElement_CornerCount(system); k < kiriElement_Count(system);
-         ++k) {
-        int32_t count = AreaElementOf(system, k)->count;
-        most = kiriMax(count, most);
+    KIRI_TIMES_WHILE(system->areaElements != NULL, k, system->areaElements->elements.count) {
+        most = kiriMax(system->areaElements->elements.data[k].count, most);
     }
     return most;
 }
@@ -994,6 +1005,9 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
         const kiriAreaElement* element = AreaElementOf(system, k);
         int32_t first = system->areaElements->shares.data[element->first].frame;
         kiriAreaElement_Stiffness(element, kiriSystem_MaterialOf(system, first), stiffness);
+    } else if (kiriElement_Clamp(system, k) != NULL) {
+        kiriClamp_Stiffness(kiriElement_Clamp(system, k), stiffness);
+        return;
     } else {
         kiriLink seen = *link;
         double free = system->linkParts != NULL ? system->linkParts[k].free : 1.0;
@@ -1106,7 +1120,12 @@ static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corn
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
     const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL && kiriMechanics_IsAffine(&system->mechanics)) {
+    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    if (clamp != NULL) {
+        const kiriFrameData* frame = &system->frames[clamp->frame];
+        kiriPose pose = poses != NULL ? poses[clamp->frame] : kiriPose_Of(frame);
+        kiriClamp_Measure(clamp, frame, &clamp->pose, &pose, strain, rows);
+    } else if (kiriElement_Corner(system, k) != NULL && kiriMechanics_IsAffine(&system->mechanics)) {
         MeasureAffineCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
     } else if (kiriElement_Corner(system, k) != NULL) {
         MeasureCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
@@ -1137,8 +1156,9 @@ kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* s
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
 {
     int count = kiriElement_StrainCount(system, k);
-    if (system->strainOffsets != NULL && kiriElement_IsRigidLink(system, k)) {
-        kiriStrain_TakeOffsets(strain, system->strainOffsets[k].strain, count, false, pulling);
+    const double* own = kiriElement_Offset(system, k);
+    if (own != NULL) {
+        kiriStrain_TakeOffsets(strain, own, count, kiriMechanics_IsAffine(&system->mechanics), pulling);
         return;
     }
     memcpy(pulling, strain, sizeof(double) * (size_t)count);
@@ -1155,8 +1175,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
     }
 }
 
-/* Returns the elastic energy of an element, J. */
-static double ElementEnergy(const kiriSystem* system, int32_t k)
+double kiriElement_Energy(const kiriSystem* system, int32_t k)
 {
     double strain[KIRI_MOST_STRAINS], stiffness[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS], sum = 0.0;
     kiriElement_Measure(system, k, NULL, strain, NULL);
@@ -1172,7 +1191,7 @@ double kiriSolver_ElasticEnergy(const kiriSystem* system)
 {
     double sum = 0.0;
     KIRI_TIMES(k, kiriElement_Count(system)) {
-        sum += ElementEnergy(system, k);
+        sum += kiriElement_Energy(system, k);
     }
     return sum;
 }
@@ -1191,9 +1210,9 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
         const kiriLink* link = &system->links[k];
         kiriStrainOffset was = offsets[k];
         bool isLimited = g > 0.0 && memcmp(&was, &none, sizeof(none)) != 0;
-        double before = isLimited ? ElementEnergy(system, k) : 0.0, part = keep;
+        double before = isLimited ? kiriElement_Energy(system, k) : 0.0, part = keep;
         double most = before + FADE_GAIN * kiriMax(before, system->frames[link->i].mass * g * link->length);
-        KIRI_TIMES_WHILE(trial == 0 || (isLimited && ElementEnergy(system, k) > most), trial, FADE_TRIALS + 1) {
+        KIRI_TIMES_WHILE(trial == 0 || (isLimited && kiriElement_Energy(system, k) > most), trial, FADE_TRIALS + 1) {
             offsets[k] = was;
             kiriStrainOffset_Fade(offsets[k].strain, plastics != NULL ? &plastics[k] : NULL, KIRI_STRAINS, part);
             part = trial + 1 < FADE_TRIALS ? 0.5 * (1.0 + part) : 1.0;

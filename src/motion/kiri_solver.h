@@ -137,7 +137,7 @@ typedef struct kiriSystem {
     const kiriAreaElements* areaElements;  /* of affine frames; null: none */
     const kiriPinRow* pins;
     int32_t pinCount;
-    kiriClampRow* clamps; /* a step writes `start` at its end */
+    kiriClampRow* clamps; /* elements; a step writes `start` at its end */
     int32_t clampCount;
     kiriContactRow* contacts; /* a step writes their forces and impulses, and the impulses of yield rows */
     int32_t contactCount;
@@ -255,7 +255,8 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,
                         int32_t most);
 
-/* Returns the elastic energy of all elements, J. */
+/* Return the elastic energy of an element, and of all, J. */
+double kiriElement_Energy(const kiriSystem* system, int32_t k);
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
 /* Multiplies the offsets of these links by `keep`, but for their plastic parts (plastics: one a link, or null).
@@ -265,7 +266,7 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
                             const kiriIndices* links, double keep, bool mayTouch);
 
 /* Elements join frames elastically. Their order is: links, except in the model of integration points; corners of these
-   links, unless Poisson's ratio is zero; area elements. Each element has several strains, each with a stiffness; its
+   links, unless Poisson's ratio is zero; area elements; clamps, which join a frame to a line. Each element has several strains, each with a stiffness; its
    energy is the sum of 1/2 stiffness strain^2. */
 
 /* Upper limit of the number of strains of an element. */
@@ -292,24 +293,32 @@ static inline int32_t kiriElement_CornerCount(const kiriSystem* system)
 static inline int32_t kiriElement_Count(const kiriSystem* system)
 {
     return kiriElement_LinkCount(system) + kiriElement_CornerCount(system) +
-           (system->areaElements != NULL ? system->areaElements->elements.count : 0);
+           (system->areaElements != NULL ? system->areaElements->elements.count : 0) + system->clampCount;
 }
 
-/* Returns the link, or null if the element is a corner or an area element. */
+/* Returns the clamp, or null. */
+static inline kiriClampRow* kiriElement_Clamp(const kiriSystem* system, int32_t k)
+{
+    int32_t clamp = system->clampCount > 0 ? k - (kiriElement_Count(system) - system->clampCount) : KIRI_NONE;
+    return clamp >= 0 ? &system->clamps[clamp] : NULL;
+}
+
+/* Returns the link, which may be of a clamp, or null if the element is a corner or an area element. */
 static inline const kiriLink* kiriElement_Link(const kiriSystem* system, int32_t k)
 {
     KIRI_ASSERT(k >= 0 && k < kiriElement_Count(system));
-    return k < kiriElement_LinkCount(system) ? &system->links[k] : NULL;
+    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    return k < kiriElement_LinkCount(system) ? &system->links[k] : clamp != NULL ? &clamp->link : NULL;
 }
 
-/* Returns the corner, or null if the element is a link or an area element. */
+/* Returns the corner, or null. */
 static inline const kiriCorner* kiriElement_Corner(const kiriSystem* system, int32_t k)
 {
     int32_t corner = k - kiriElement_LinkCount(system);
     return corner >= 0 && corner < kiriElement_CornerCount(system) ? &system->corners[corner] : NULL;
 }
 
-/* Returns true for a link between rigid frames. */
+/* Returns true for a link between rigid frames, or from a line to one. */
 static inline bool kiriElement_IsRigidLink(const kiriSystem* system, int32_t k)
 {
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Link(system, k) != NULL;
@@ -341,15 +350,35 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
    */
 kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
 
-/* Finds the flow of a link at these strains. Returns the energy that it takes, J. Corners read the offsets of links, so
-   links come first. */
+/* Returns the offsets of the strains of a link or a clamp, or null. */
+static inline double* kiriElement_Offset(const kiriSystem* system, int32_t k)
+{
+    kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    bool hasOffset = system->strainOffsets != NULL && kiriElement_IsRigidLink(system, k);
+    return clamp != NULL ? clamp->offset : hasOffset ? system->strainOffsets[k].strain : NULL;
+}
+
+/* Returns the yielding of a link or a clamp in this step, or null. */
+static inline kiriYield* kiriElement_Yield(const kiriSystem* system, int32_t k)
+{
+    kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    if (clamp != NULL) {
+        return clamp->keptPlastic != NULL ? &clamp->yield : NULL;
+    }
+    return system->flows != NULL && kiriElement_IsRigidLink(system, k) ? &system->flows[k] : NULL;
+}
+
+/* Finds the flow at these strains. Returns the energy that it takes, J. Corners read the offsets of links, so links come
+   first. */
 static inline double kiriElement_Flow(const kiriSystem* system, int32_t k, const double* strain, bool mayFlow)
 {
-    if (system->flows == NULL || !kiriElement_IsRigidLink(system, k)) {
-        return 0.0;
+    kiriYield* yield = kiriElement_Yield(system, k);
+    if (yield != NULL) {
+        kiriBentStrain bend = kiriBentStrain_Of(strain), off;
+        kiriYield_Flow(yield, &bend, mayFlow, &off);
+        kiriBentStrain_Write(&off, kiriElement_Offset(system, k));
     }
-    kiriStrain_Flow(&system->flows[k], strain, mayFlow, system->strainOffsets[k].strain);
-    return system->flows[k].lost;
+    return yield != NULL ? yield->lost : 0.0;
 }
 
 /* Subtracts the offsets from the strains. The result is the part that causes forces. */
@@ -359,7 +388,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
    poses of the frames at its end:
 
        1/2 sum over mass points of m |x - x*|^2 / h'^2,  x* and h' by the scheme (kiri_frame.h)
-     + energies of elements, pins, clamps and contacts
+     + energies of elements, pins and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
    All terms are squares, so the matrix of a Gauss-Newton step is J^T k J + mass: always positive definite, with a
@@ -503,6 +532,7 @@ struct kiriSolver {
     kiriIndices nextPin, nextClamp;              /* per row: next row of the same body, or KIRI_NONE */
 
     /* State of the body that steps. Arrays have room for the largest body, committed or staged. */
+    int64_t mostElements; /* of a body, without clamps */
     kiriMatrix* matrix;
     const kiriIslandBody* islandBodies;
     int32_t islandCount;

@@ -307,29 +307,10 @@ static void AddFlow(kiriStepEnergy* sum, double flow)
     sum->flow += flow;
 }
 
-/* Adds the energies of the springs and dampers of strains; `pulling` are the strains without their offsets. */
-static void AddStrains(int count, const double* stiffness, const double* loss, const double* start,
-                       const double* strain, const double* pulling, kiriStepEnergy* sum)
-{
-    KIRI_TIMES(e, count) {
-        double change = strain[e] - start[e];
-        AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
-    }
-}
-
-/* ---- Pins, clamps and contacts ---- */
+/* ---- Pins and contacts ---- */
 
 static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, kiriStepEnergy* sum)
 {
-    KIRI_TIMES(k, system->clampCount) {
-        kiriClampRow* row = &system->clamps[k];
-        double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
-        kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
-        AddFlow(sum, kiriClamp_Flow(row, strain, solver->search.mayFlow));
-        kiriClamp_TakeOffsets(row, strain, pulling);
-        AddStrains(row->strainCount, row->stiffness, row->loss, row->startStrain, strain, pulling, sum);
-        row->stopping |= kiriClamp_IsStopped(row, strain);
-    }
     KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
@@ -356,13 +337,18 @@ static void MeasureElement(const kiriSystem* system, int32_t k, const kiriPose* 
     }
 }
 
+/* Adds the energies of springs and dampers; `pulling` are the strains without their offsets. */
 static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
                              const double* pulling, kiriStepEnergy* sum)
 {
-    int32_t first = KIRI_MOST_STRAINS * k;
+    const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
+    const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
+    const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
     KIRI_ASSERT(k >= 0 && k < solver->elementCount);
-    AddStrains(kiriElement_StrainCount(system, k), &solver->stiffness.data[first], &solver->loss.data[first],
-               &solver->startStrain.data[first], strain, pulling, sum);
+    KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
+        double change = strain[e] - start[e];
+        AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
+    }
 }
 
 static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
@@ -383,9 +369,10 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
 {
     kiriStepEnergy sum = InertiaEnergy(solver, system, poses);
     /* Held frames start from where the host puts them: other strains than those at the start of the step. */
-    bool isKnown = poses == solver->start.data && !solver->isHeld, hasStops = !system->mechanics.planar;
+    bool isStart = poses == solver->start.data && !solver->isHeld, hasStops = !system->mechanics.planar;
     KIRI_TIMES(k, solver->elementCount) {
         double pulling[KIRI_MOST_STRAINS];
+        bool isKnown = isStart && kiriElement_Clamp(system, k) == NULL; /* clamps have moved */
         if (!isKnown) {
             MeasureElement(system, k, poses, solver->nowStrain.data);
         }
@@ -456,15 +443,12 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
                                                              : 0.0;
         if (kiriElement_IsRigidLink(system, k)) {
             const kiriLink* link = kiriElement_Link(system, k);
-            double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
+            kiriElement_Members(system, k, solver->members.data);
+            double reach = kiriVec3_Length(solver->start.data[solver->members.data[0]].x) + link->length;
             noise = reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
                     stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
         }
         sum += share * noise;
-    }
-    KIRI_TIMES(k, system->clampCount) {
-        const kiriClampRow* row = &system->clamps[k];
-        sum += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         kiriVec3 x = contact->start;
@@ -526,23 +510,28 @@ static void CenterHistories(kiriSolver* solver, int32_t frameCount)
     }
 }
 
-/* Prepares links that yield, from their strains at the start. */
+/* Prepares links and clamps that yield, from their strains at the start. */
 static void BeginYields(kiriSolver* solver, const kiriSystem* system)
 {
     solver->yields = system->flows != NULL;
-    KIRI_TIMES_WHILE(solver->yields, k, system->linkCount) {
-        const kiriMaterial* material = kiriSystem_MaterialOf(system, system->links[k].i);
-        const kiriBentStrain strain = kiriBentStrain_Of(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
-        const kiriBentStrain offset = kiriBentStrain_Of(system->strainOffsets[k].strain);
-        kiriBentStrain stiffness = kiriBentStrain_Of(&solver->stiffness.data[KIRI_MOST_STRAINS * k]);
-        double length = kiriStrain_YieldLength(&system->links[k], material, &stiffness, strain.bending);
-        kiriYield_Begin(&system->flows[k], &system->plastics[k], material, length, &stiffness, &offset, &strain);
+    KIRI_TIMES(k, solver->elementCount) {
+        kiriYield* yield = kiriElement_Yield(system, k);
+        if (yield != NULL) {
+            const kiriClampRow* clamp = kiriElement_Clamp(system, k);
+            const kiriLink* link = kiriElement_Link(system, k);
+            const kiriMaterial* material = clamp != NULL ? clamp->material : kiriSystem_MaterialOf(system, link->i);
+            const kiriBentStrain strain = kiriBentStrain_Of(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
+            const kiriBentStrain offset = kiriBentStrain_Of(kiriElement_Offset(system, k));
+            kiriBentStrain stiffness = kiriBentStrain_Of(&solver->stiffness.data[KIRI_MOST_STRAINS * k]);
+            double length = clamp != NULL ? link->length
+                                          : kiriStrain_YieldLength(link, material, &stiffness, strain.bending);
+            kiriYield_Begin(yield, clamp != NULL ? &clamp->plastic : &system->plastics[k], material, length, &stiffness,
+                            &offset, &strain);
+            solver->yields = true;
+        }
     }
-    if (solver->yields) {
+    if (system->flows != NULL) {
         kiriYields_Share(system->flows, system->links, system->linkCount, solver->regions.data, system->frameCount);
-    }
-    KIRI_TIMES(k, system->clampCount) {
-        solver->yields |= system->clamps[k].keptPlastic != NULL;
     }
 }
 
@@ -586,8 +575,14 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     kiriSolver_CenterBody(solver, system);
     KIRI_TIMES(k, solver->elementCount) {
         double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
+        kiriClampRow* clamp = kiriElement_Clamp(system, k);
         kiriElement_Stiffness(system, k, stiffness);
-        MeasureElement(system, k, solver->start.data, solver->startStrain.data);
+        if (clamp != NULL) { /* the line has not moved yet */
+            kiriClamp_Measure(clamp, &system->frames[clamp->frame], &clamp->start, &solver->start.data[clamp->frame],
+                              &solver->startStrain.data[KIRI_MOST_STRAINS * k], NULL);
+        } else {
+            MeasureElement(system, k, solver->start.data, solver->startStrain.data);
+        }
         solver->stopping.data[k] = 0;
         kiriElement_Members(system, k, solver->members.data);
         const kiriMaterial* material = kiriSystem_MaterialOf(system, solver->members.data[0]);
@@ -598,13 +593,6 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         if (kiriElement_IsRigidLink(system, k) && solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_FOLD] > 0.0) {
             solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
         }
-    }
-    KIRI_TIMES(k, system->clampCount) {
-        KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
-        int32_t frame = system->clamps[k].frame;
-        const kiriMaterial* material = kiriSystem_MaterialOf(system, frame);
-        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, material, material->flexDamping / dt,
-                        &system->frames[frame], &solver->start.data[frame]);
     }
     KIRI_TIMES(f, system->frameCount) {
         if (system->frames[f].held) {
@@ -714,7 +702,8 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
         DeriveTraces(solver, system, k, count, strain);
         return;
     }
-    if (kiriElement_IsRigidLink(system, k) && !system->mechanics.planar) {
+    bool isRigidLink = k < kiriElement_LinkCount(system) && kiriElement_IsRigidLink(system, k);
+    if (isRigidLink && !system->mechanics.planar) {
         const kiriLink* link = kiriElement_Link(system, k);
         const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
         const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
@@ -731,19 +720,29 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
             memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
-    bool isTraced = kiriElement_CornerCount(system) > 0 && kiriElement_IsRigidLink(system, k);
+    bool isTraced = kiriElement_CornerCount(system) > 0 && isRigidLink;
     KIRI_TIMES_WHILE(isTraced, s, system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED) {
         memcpy(TracedRows(solver, k, s), &J[2 * solver->size * kiriTrace_Source(s)], 2 * bytes);
     }
 }
 
-static void TurnSprings(const kiriYield* yield, const double* loss, const double* strain, const double* start,
-                        double* springs, double* pulls)
+/* Turns the rows and the springs of an element that flows. */
+static void TurnFlow(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* springs,
+                     double* pulls)
 {
+    const kiriYield* yield = kiriElement_Yield(system, k);
+    const double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k],
+                 *start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
+    double *J = solver->J.data, *traced[2] = { NULL, NULL };
+    int width = count * solver->size;
+    KIRI_TIMES_WHILE(count == 2 && kiriElement_CornerCount(system) > 0, s, 2) {
+        traced[s] = TracedRows(solver, k, KIRI_TRACED_BENDING + s);
+    }
+    kiriYield_TurnRows(yield, width, &J[width * KIRI_BENDING], &J[width * KIRI_TWIST], traced);
     kiriBentStrain now = kiriBentStrain_Of(strain), then = kiriBentStrain_Of(start), stiff = kiriBentStrain_Of(springs),
                    pull = kiriBentStrain_Of(pulls);
     kiriBentStrain change = { now.bending - then.bending, now.twist - then.twist, now.fold - then.fold };
-    kiriYield_TurnSprings(yield, loss[KIRI_BENDING], &change, &stiff, &pull);
+    kiriYield_TurnSprings(yield, solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_BENDING], &change, &stiff, &pull);
     kiriBentStrain_Write(&stiff, springs);
     kiriBentStrain_Write(&pull, pulls);
 }
@@ -792,14 +791,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
             TautnessOf(solver, kiriElement_Link(system, k), stiffness, start, strain, pulling);
     }
     if (flow > 0.0) {
-        const kiriYield* yield = &system->flows[k];
-        double *J = solver->J.data, *traced[2] = { NULL, NULL };
-        int width = 2 * solver->size;
-        KIRI_TIMES_WHILE(kiriElement_CornerCount(system) > 0, s, 2) {
-            traced[s] = TracedRows(solver, k, KIRI_TRACED_BENDING + s);
-        }
-        kiriYield_TurnRows(yield, width, &J[width * KIRI_BENDING], &J[width * KIRI_TWIST], traced);
-        TurnSprings(yield, loss, strain, start, springs, pulls);
+        TurnFlow(solver, system, k, count, springs, pulls);
     }
     if (isStopping && strain[KIRI_NORMAL_STOP] == 0.0) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
@@ -818,37 +810,6 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, k
     }
     kiriSolver_Reduce(solver, &row, J);
     kiriSolver_AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
-}
-
-/* Same as AddElement, for a clamp and its frame. */
-static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow* row)
-{
-    kiriFrameRow rows[KIRI_CLAMP_STRAINS];
-    double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS], J[KIRI_CLAMP_STRAINS * KIRI_MOST_UNKNOWNS];
-    double springs[KIRI_CLAMP_STRAINS], pulls[KIRI_CLAMP_STRAINS];
-    kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &solver->poses.data[row->frame], strain, rows);
-    bool flows = kiriClamp_Flow(row, strain, solver->search.mayFlow) > 0.0;
-    kiriClamp_TakeOffsets(row, strain, pulling);
-    KIRI_TIMES(e, row->strainCount) {
-        springs[e] = row->stiffness[e] + row->loss[e];
-        pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
-        kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
-    }
-    if (flows) {
-        double* const traced[2] = { NULL, NULL };
-        kiriYield_TurnRows(&row->yield, solver->size, &J[solver->size * KIRI_BENDING], &J[solver->size * KIRI_TWIST],
-                           traced);
-        TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
-    }
-    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) {
-        springs[KIRI_NORMAL_GAP] += TautnessOf(solver, &row->link, row->stiffness, row->startStrain, strain, pulling);
-        if (strain[KIRI_NORMAL_STOP] == 0.0) {
-            bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
-            springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
-            springs[KIRI_NORMAL_GAP] += springs[KIRI_NORMAL_STOP];
-        }
-    }
-    kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }
 
 static void AddWind(kiriSolver* solver, const kiriSystem* system)
@@ -901,11 +862,6 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         }
     }
     kiriStitches_Assemble(solver, system);
-    KIRI_TIMES(k, system->clampCount) {
-        if (!system->frames[system->clamps[k].frame].held) {
-            AddClamp(solver, system, &system->clamps[k]);
-        }
-    }
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         kiriContact_Assemble(solver, system, contact);
     }
@@ -1158,18 +1114,6 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
-/* Adds the wrench of a strain that pulls with -`pull` on a frame; `row` is the derivative of the strain. */
-static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, kiriWrench* sum)
-{
-    kiriVec3 torque = row->by[1];
-    if (kiriMechanics_IsAffine(&solver->mechanics)) {
-        torque = kiriVec3_Add(kiriVec3_Cross(A->u, row->by[1]), kiriVec3_Cross(A->v, row->by[2]));
-        torque = kiriVec3_Add(torque, kiriVec3_Cross(A->d, row->by[3]));
-    }
-    sum->force = kiriVec3_AddScaled(sum->force, pull, row->by[0]);
-    sum->moment = kiriVec3_AddScaled(sum->moment, pull, torque);
-}
-
 static kiriWrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 point, kiriVec3 force)
 {
     kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[frame].x), force) };
@@ -1207,28 +1151,6 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES(k, system->clampCount) {
-        kiriClampRow* row = &system->clamps[k];
-        const kiriPose* pose = &solver->poses.data[row->frame];
-        double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
-        kiriFrameRow rows[KIRI_CLAMP_STRAINS];
-        kiriWrench wrench = { 0 };
-        kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
-        kiriClamp_Flow(row, strain, true);
-        kiriClamp_TakeOffsets(row, strain, pulling);
-        KIRI_TIMES(e, row->strainCount) {
-            double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
-            AddPull(solver, &rows[e], pull, &pose->A, &wrench);
-        }
-        if (row->reaction != NULL) {
-            row->reaction->now = AboutPoint(&wrench, pose->x, row->pose.x);
-        }
-        TakeFromHold(solver, system, row->frame, wrench);
-    }
-}
-
 /* Takes a force on a point of several frames from their holds. */
 static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
                                int32_t count, kiriVec3 force)
@@ -1240,12 +1162,13 @@ static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* syste
     }
 }
 
-/* Takes from the holds of frames what an element does to them. */
-static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+/* Takes from the holds of frames what an element does to them, and adds the reaction of a clamp. */
+static void AddElementPulls(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
+    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
-    bool isAnyHeld = false;
+    bool isAnyHeld = clamp != NULL;
     KIRI_TIMES(m, count) {
         isAnyHeld |= system->frames[solver->members.data[m]].held != 0;
     }
@@ -1257,14 +1180,25 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
     kiriElement_TakeOffsets(system, k, strain, pulling);
     KIRI_TIMES(m, count) {
         int32_t frame = solver->members.data[m];
-        kiriWrench wrench = { 0 };
+        const kiriMat3* A = &solver->poses.data[frame].A;
+        kiriWrench sum = { 0 };
         KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
             int32_t n = KIRI_MOST_STRAINS * k + e;
             double change = strain[e] - solver->startStrain.data[n];
             double pull = -solver->stiffness.data[n] * pulling[e] - solver->loss.data[n] * change;
-            AddPull(solver, &solver->rows.data[count * e + m], pull, &solver->poses.data[frame].A, &wrench);
+            const kiriVec3* by = solver->rows.data[count * e + m].by;
+            kiriVec3 torque = by[1];
+            if (kiriMechanics_IsAffine(&solver->mechanics)) {
+                torque = kiriVec3_Add(kiriVec3_Cross(A->u, by[1]), kiriVec3_Cross(A->v, by[2]));
+                torque = kiriVec3_Add(torque, kiriVec3_Cross(A->d, by[3]));
+            }
+            kiriWrench wrench = { by[0], torque };
+            kiriWrench_Add(&sum, pull, &wrench);
         }
-        TakeFromHold(solver, system, frame, wrench);
+        if (clamp != NULL && clamp->reaction != NULL) {
+            clamp->reaction->now = AboutPoint(&sum, solver->poses.data[frame].x, clamp->pose.x);
+        }
+        TakeFromHold(solver, system, frame, sum);
     }
 }
 
@@ -1321,7 +1255,6 @@ static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
 {
     AddPinPulls(solver, system);
-    AddClampPulls(solver, system);
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
@@ -1340,9 +1273,9 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
                 TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
             }
         }
-        KIRI_TIMES(k, solver->elementCount) {
-            TakeElementFromHolds(solver, system, k);
-        }
+    }
+    KIRI_FROM_TO(k, solver->isHeld ? 0 : solver->elementCount - system->clampCount, solver->elementCount) {
+        AddElementPulls(solver, system, k);
     }
     EndReactions(solver, system);
 }

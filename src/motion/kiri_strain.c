@@ -1219,74 +1219,38 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
     }
 }
 
-/* Sets the stiffness for a rigid frame. Along the line the material neither stretches nor curls, and beside it hardly:
+/* Writes the stiffness for a rigid frame. Along the line the material neither stretches nor curls, and beside it hardly:
    so it is as stiff as if both directions were strained. */
-static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
+static void RigidStiffness(const kiriClampRow* row, double* stiffness)
 {
+    const kiriMaterial* material = row->material;
     double h = material->thickness, nu = material->poissonsRatio, l = row->link.length;
     double membrane = material->youngsModulus * h / (l * (1.0 - nu * nu)), bending = membrane * h * h / 12.0;
-    kiriStrain_Stiffness(&row->link, material, row->stiffness);
-    row->stiffness[KIRI_STRETCH] = membrane * row->link.width;
-    row->stiffness[KIRI_BENDING] = bending * row->link.width;
-    row->stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (row->link.width + row->outer);
-    row->stiffness[KIRI_FOLD] = kiriMax(row->stiffness[KIRI_BENDING], row->stiffness[KIRI_TWIST]);
-    row->stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
+    kiriStrain_Stiffness(&row->link, material, stiffness);
+    stiffness[KIRI_STRETCH] = membrane * row->link.width;
+    stiffness[KIRI_BENDING] = bending * row->link.width;
+    stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (row->link.width + row->outer);
+    stiffness[KIRI_FOLD] = kiriMax(stiffness[KIRI_BENDING], stiffness[KIRI_TWIST]);
+    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
 }
 
-/* Sets the stiffness for an affine frame, whose bending strains include twist. */
-static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
+/* Writes the stiffness for an affine frame, whose bending strains include twist. */
+static void AffineStiffness(const kiriClampRow* row, double* stiffness)
 {
+    const kiriMaterial* material = row->material;
     double h = material->thickness, nu = material->poissonsRatio, l = row->link.length;
     double W = row->link.width, membrane = material->youngsModulus * h / l;
     double bending = membrane * h * h / (12.0 * (1.0 - nu * nu)), twisted = (1.0 - nu) * (W + row->outer) - W;
-    kiriAffine_Stiffness(&row->link, material, row->stiffness);
+    kiriAffine_Stiffness(&row->link, material, stiffness);
     KIRI_TIMES(a, 3) {
-        row->stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane * W;
-        row->stiffness[KIRI_AFFINE_BENDING + a] = bending * W;
+        stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane * W;
+        stiffness[KIRI_AFFINE_BENDING + a] = bending * W;
     }
-    row->stiffness[KIRI_AFFINE_TWIST] = twisted > 0.0 ? bending * twisted : 0.0;
-    row->stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l);
+    stiffness[KIRI_AFFINE_TWIST] = twisted > 0.0 ? bending * twisted : 0.0;
+    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l);
 }
 
-void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* material, double damping,
-                     const kiriFrameData* frame, const kiriPose* start)
+void kiriClamp_Stiffness(const kiriClampRow* row, double* stiffness)
 {
-    row->strainCount = kiriStrain_Count(row->isAffine, isPlanar);
-    row->stopping = false;
-    row->isAffine ? SetAffineStiffness(row, material) : SetRigidStiffness(row, material);
-    kiriClamp_Measure(row, frame, &row->start, start, row->startStrain, NULL);
-    double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
-    KIRI_TIMES(e, row->strainCount) {
-        row->loss[e] = share * row->stiffness[e];
-    }
-    if (row->keptPlastic != NULL) {
-        const kiriBentStrain stiffness = kiriBentStrain_Of(row->stiffness), offset = kiriBentStrain_Of(row->offset);
-        const kiriBentStrain strain = kiriBentStrain_Of(row->startStrain);
-        kiriYield_Begin(&row->yield, &row->plastic, material, row->link.length, &stiffness, &offset, &strain);
-    }
-    if (!row->isAffine && row->startStrain[KIRI_FOLD] > 0.0) {
-        row->loss[KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
-    }
-}
-
-void kiriClamp_TakeOffsets(const kiriClampRow* row, const double* strain, double* pulling)
-{
-    kiriStrain_TakeOffsets(strain, row->offset, row->strainCount, row->isAffine, pulling);
-}
-
-bool kiriClamp_IsStopped(const kiriClampRow* row, const double* strain)
-{
-    return !row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] != 0.0;
-}
-
-double kiriClamp_Noise(const kiriClampRow* row, const kiriPose* start)
-{
-    double reach = kiriVec3_Length(start->x) + row->link.length, sum = 0.0;
-    KIRI_TIMES(e, row->strainCount) {
-        bool isAngle = row->isAffine ? e >= KIRI_AFFINE_PLANE_BENDING && e < KIRI_AFFINE_NORMAL_GAP
-                                     : e >= KIRI_PLANE_BENDING && e <= KIRI_TWIST;
-        bool isStop = e == (row->isAffine ? (int)KIRI_AFFINE_NORMAL_STOP : (int)KIRI_NORMAL_STOP);
-        sum += isStop ? 0.0 : (isAngle ? 1.0 : reach * reach) * row->stiffness[e];
-    }
-    return sum;
+    (row->isAffine ? AffineStiffness : RigidStiffness)(row, stiffness);
 }

@@ -228,15 +228,7 @@ static inline void kiriBentStrain_Write(const kiriBentStrain* bend, double* stra
     strain[KIRI_FOLD] = bend->fold;
 }
 
-/* Finds the flow of a link at these strains, and writes its offsets. */
-static inline void kiriStrain_Flow(kiriYield* yield, const double* strain, bool mayFlow, double* offset)
-{
-    kiriBentStrain bend = kiriBentStrain_Of(strain), off;
-    kiriYield_Flow(yield, &bend, mayFlow, &off);
-    kiriBentStrain_Write(&off, offset);
-}
-
-/* Does so at the end of a step, and keeps the flow. */
+/* Finds the flow of a link at the end of a step, writes its offsets, and keeps the flow. */
 static inline void kiriStrain_EndFlow(kiriYield* yield, const double* strain, kiriPlastic* plastic, double* offset)
 {
     kiriBentStrain bend = kiriBentStrain_Of(strain), off;
@@ -318,13 +310,6 @@ enum {
     KIRI_AFFINE_STRAINS
 };
 
-/* Returns the number of strains of a link that can be nonzero. They come first. */
-static inline int kiriStrain_Count(bool isAffine, bool isPlanar)
-{
-    return isAffine ? (isPlanar ? (int)KIRI_AFFINE_BENDING : (int)KIRI_AFFINE_STRAINS)
-                    : (isPlanar ? (int)KIRI_PLANE_BENDING + 1 : (int)KIRI_STRAINS);
-}
-
 /* Same as kiriStrain_Measure. Each strain has two rows, for i and j. */
 void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2]);
@@ -372,12 +357,7 @@ typedef struct kiriClampRow {
     double outer; /* m: part of the width at free ends; link.outer is zero, because the line does not curl */
     const kiriMaterial* material;
     bool isAffine;
-
-    /* For the current step. */
-    int strainCount;
-    double stiffness[KIRI_CLAMP_STRAINS], loss[KIRI_CLAMP_STRAINS], startStrain[KIRI_CLAMP_STRAINS];
-    kiriYield yield;
-    bool stopping; /* a trial step would have reached the normal stop */
+    kiriYield yield; /* in the current step */
 } kiriClampRow;
 
 /* Input for the link from a line to a frame's site. `width`, `centroid` and `moment` (second moment about the centroid)
@@ -393,34 +373,12 @@ typedef struct kiriClampShape {
 
 void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 site);
 
-/* Prepares the row for a step. `start` is the frame's pose at the start of the step. */
-void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* material, double damping,
-                     const kiriFrameData* frame, const kiriPose* start);
+void kiriClamp_Stiffness(const kiriClampRow* row, double* stiffness);
 
 /* Measures the strains for these poses of the line and the frame and, unless `rows` is null, their derivatives by the
    frame. */
 void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, const kiriPose* line, const kiriPose* pose,
                        double* strain, kiriFrameRow* rows);
-
-/* Finds the flow at these strains. Returns the energy that it takes, J. */
-static inline double kiriClamp_Flow(kiriClampRow* row, const double* strain, bool mayFlow)
-{
-    if (row->keptPlastic == NULL) {
-        return 0.0;
-    }
-    kiriStrain_Flow(&row->yield, strain, mayFlow, row->offset);
-    return row->yield.lost;
-}
-
-/* Subtracts the offsets from the strains. The result is the part that causes forces. */
-void kiriClamp_TakeOffsets(const kiriClampRow* row, const double* strain, double* pulling);
-
-/* Returns true if these strains have reached the normal stop. Always false for planar sheets and affine frames. */
-bool kiriClamp_IsStopped(const kiriClampRow* row, const double* strain);
-
-/* Returns the energy of all springs (J) for relative errors of lengths and angles of 1, to be multiplied by the square
-   of the rounding error. */
-double kiriClamp_Noise(const kiriClampRow* row, const kiriPose* start);
 
 KIRI_C_END
 

@@ -358,6 +358,7 @@ kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
 {
     kiriTotals totals = kiriSheet_SumFrames(sheet, NULL, sheet->frames.count);
     kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
-    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system) + kiriPins_ElasticEnergy(sheet);
+    system.clampCount = 0; /* rows are of the last tick */
+    totals.elasticEnergy = kiriSolver_ElasticEnergy(&system) + kiriPins_ElasticEnergy(sheet, system);
     return totals;
 }

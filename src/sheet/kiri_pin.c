@@ -428,20 +428,15 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
     }
 }
 
-double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
+double kiriPins_ElasticEnergy(const kiriSheetData* sheet, kiriSystem system)
 {
     double sum = 0.0;
+    system.clampCount = 1;
     KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
-        const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
-            double pulling[KIRI_CLAMP_STRAINS];
-            kiriClampRow row = ClampRowOf(sheet, pinned, frame, 0.0, 1.0);
-            kiriPose pose = kiriPose_Of(frame);
-            kiriClamp_Begin(&row, sheet->settings.mechanics.planar, &sheet->settings.material, 0.0, frame, &pose);
-            kiriClamp_TakeOffsets(&row, row.startStrain, pulling);
-            KIRI_TIMES(e, row.strainCount) {
-                sum += 0.5 * row.stiffness[e] * pulling[e] * pulling[e];
-            }
+            kiriClampRow row = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 0.0);
+            system.clamps = &row;
+            sum += kiriElement_Energy(&system, kiriElement_Count(&system) - 1);
         }
     }
     return sum;

@@ -36,8 +36,8 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
 /* Sets the target pose of a line to the current pose of its material. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
 
-/* Elastic energy between clamps and the sites of the frames that they hold, J. */
-double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
+/* Returns the elastic energy of clamps, J. `system`: of the sheet. */
+double kiriPins_ElasticEnergy(const kiriSheetData* sheet, kiriSystem system);
 
 /* Writes the rows of all clamps at the end of the tick; `rows` has room for one a share. Returns how many. */
 int32_t kiriPins_WriteClamps(const kiriSheetData* sheet, kiriClampRow* rows);
