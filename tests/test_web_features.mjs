@@ -351,7 +351,7 @@ async function linkPlays(tab) {
     await press(tab, "New sheet");
     await press(tab, "Knife");
     await drag(tab, await across(tab, 0.1));
-    await frame(tab, 5);
+    await settle(tab);
     const hash = await tab.evaluate(() => globalThis.game.simulation.world.getStateHash());
     await press(tab, "Copy link");
     await tab.waitForFunction(() => location.hash.length > 100);
@@ -387,7 +387,7 @@ async function fingers(tab) {
         await frame(tab);
     }
     await touch(session, "touchEnd");
-    await frame(tab, 3);
+    await settle(tab);
     assert.equal((await areas(tab)).filter((area) => area > 1e-4).length, 2, "a finger parts the sheet");
 
     const undos = () => tab.evaluate(() => globalThis.game.undos.length), acts = await undos();
