@@ -52,7 +52,8 @@ NEEDS_run := $(NEEDS_lib) libosmesa6-dev libpng-dev
 NEEDS_box2d := $(NEEDS_run) libbox2d-dev
 NEEDS_play := $(NEEDS_box2d) libsdl2-dev libsdl2-ttf-dev
 WANTS_play := fonts-dejavu-core
-NEEDS_view := $(NEEDS_run) libsdl2-dev
+NEEDS_view := $(NEEDS_run) libsdl2-dev libsdl2-ttf-dev
+WANTS_view := fonts-dejavu-core
 NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
@@ -583,10 +584,10 @@ $(BOX2D): $(BUILD)/samples/box2d/main.cpp.o $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS
 	@echo "  $@"
 	@$(LINK) -o $@ $^ -lbox2d $(GL_LIBRARIES) -lpng -lz -lm
 
-$(VIEW): $(addprefix $(BUILD)/samples/,view/main.c.o games/window.c.o games/sound.c.o) \
+$(VIEW): $(addprefix $(BUILD)/samples/,view/main.c.o games/window.c.o games/sound.c.o games/canvas_text.c.o) \
         $(filter-out %/run.c.o,$(filter %.c.o,$(SAMPLE_OBJECTS))) $(BUILD)/libkiri.a
 	@echo "  $@"
-	@$(LINK) -o $@ $^ -lSDL2 $(GL_LIBRARIES) -lpng -lz -lm
+	@$(LINK) -o $@ $^ -lSDL2_ttf -lSDL2 $(GL_LIBRARIES) -lpng -lz -lm
 
 $(PLAY): $(GAME_OBJECTS) $(ADAPTER_OBJECTS) $(PICTURE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"

@@ -35,6 +35,9 @@ void Overlay_AddText(Overlay* overlay, float x, float y, float size, float align
 /* Draws a text in a font of the system, for Canvas_Create (games/canvas_text.c). */
 void OverlayText_Draw(const OverlayText* text, float scale);
 
+/* Writes a text on a picture in the same font; left, top: pixels. */
+void Image_WriteText(Image* image, const char* words, int32_t size, int32_t left, int32_t top, const uint8_t color[3]);
+
 /* To the right, up, and towards the eye: unit vectors. Returns how far the eye is from the target. */
 float CanvasCamera_GetAxes(const CanvasCamera* camera, float right[3], float up[3], float back[3]);
 

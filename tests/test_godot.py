@@ -48,7 +48,7 @@ class Engine:
     def addon(self, folder):
         """addons/kiri, as the package has it."""
         (folder / "bin").mkdir(parents=True)
-        own = ["kiri.gd", "kiri.gdns", "kiri_world.gdns", "kiri.gdnlib"] if self.version == 3 else ["kiri.gdextension"]
+        own = ["kiri.gd", "kiri.gdns", "kiri_world.gdns", "kiri.gdnlib"] if self.version == 3 else ["kiri.gdextension", "icon.svg"]
         for file in [*(binding / f"godot{self.version}" / name for name in own), binding / "README.md", repository / "LICENSE"]:
             shutil.copy(file, folder)
         shutil.copy(self.build / f"libkiri_godot{self.version}.so", folder / "bin")
@@ -243,6 +243,10 @@ def check_package(engine, version):
         engine.run(folder, ["--import"], check=False)
         log = engine.run(folder, ["--import"])
         assert "ERROR" not in log, log
+        extension = (folder / "addons/kiri/kiri.gdextension").read_text()
+        for name, icon in re.findall(r'^(Kiri\w*) = "res://(.*)"$', extension, re.M):
+            assert (folder / icon).exists() and (binding / f"doc_classes/{name}.xml").exists(), f"the icon of {name}"
+        assert list((folder / ".godot/imported").glob("icon.svg-*.ctex")), "Godot takes the icon"
     assert engine.run(folder, ["-s", "first_cut.gd"]).endswith("2 pieces\n"), "the first cut"
     picture(engine, folder, ["res://addons/kiri/example/main.tscn"])
     print(f"{engine.name()}: {made}.zip, used in an empty project")

@@ -6,7 +6,7 @@ shown() { # tick and keys
     echo "$recording.$(echo "$1" | tr '<> ' 'pns').png"
 }
 set -- 60 25 '60<' '60>' '60 ' 59 61 '60+' '60+-' 60z
-for key in r l c f k o w; do set -- "$@" 60$key 60$key$key; done
+for key in r l c f k o w b; do set -- "$@" 60$key 60$key$key; done
 words=
 for at in "$@"; do words="$words '$at' '$(shown "$at")'"; done
 eval "$view" "$recording" "$words" 60 "'$recording.again.png'"
@@ -25,7 +25,7 @@ same '60 ' 61
 other 60 '60+'
 same 60 '60+-'
 same 60 60z
-for key in r l c f k o w; do
+for key in r l c f k o w b; do
     other 60 60$key
     same 60 60$key$key
 done

@@ -56,3 +56,21 @@ void OverlayText_Draw(const OverlayText* text, float scale)
     glPixelZoom(1.0f, 1.0f);
     SDL_FreeSurface(drawn);
 }
+
+void Image_WriteText(Image* image, const char* words, int32_t size, int32_t left, int32_t top, const uint8_t color[3])
+{
+    TTF_Font* font = GetFont();
+    SDL_Surface* drawn = NULL;
+    if (font != NULL && TTF_SetFontSize(font, size) == 0) {
+        drawn = TTF_RenderUTF8_Blended(font, words, (SDL_Color){ color[0], color[1], color[2], 255 });
+    }
+    for (int32_t i = 0; drawn != NULL && i < drawn->w * drawn->h; i++) {
+        int32_t x = left + i % drawn->w, y = top + i / drawn->w;
+        const uint8_t* from = (const uint8_t*)drawn->pixels + drawn->pitch * (i / drawn->w) + 4 * (i % drawn->w);
+        uint8_t* to = image->rgb + 3 * (image->width * y + x);
+        for (int k = 0; k < 3 && x < image->width && y < image->height; k++) {
+            to[k] = (uint8_t)(to[k] + (color[k] - to[k]) * from[3] / 255);
+        }
+    }
+    SDL_FreeSurface(drawn);
+}

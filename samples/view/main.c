@@ -1,4 +1,7 @@
 /* Shows a recording or a save in a window, forwards and backwards. */
+#define _POSIX_C_SOURCE 199309L
+
+#include "../canvas_parts.h"
 #include "../games/window.h"
 #include "../scene_record.h"
 #include "../shot.h"
@@ -6,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { KEEP_EVERY = 20, MOST_EVENTS = 64, WIDTH = 960, HEIGHT = 720, BAR = 24 };
 
@@ -26,7 +30,7 @@ typedef struct Viewer {
     Moment* moments; /* of each KEEP_EVERYth tick, as far as it was played */
     int32_t momentCount;
     float turn, rise, away; /* of the camera: rad, rad, sizes */
-    bool isPlaying, isTurning, isScrubbing;
+    bool isPlaying, isTurning, isScrubbing, showsBudget;
     int32_t held; /* ticks a picture while an arrow key is down */
     int32_t mouse[2];
 } Viewer;
@@ -49,7 +53,8 @@ static bool Keep(Viewer* viewer)
 static bool GoTo(Viewer* viewer, int32_t tick)
 {
     tick = tick < 0 ? 0 : tick > viewer->replay.ticks ? viewer->replay.ticks : tick;
-    int32_t nearest = tick / KEEP_EVERY < viewer->momentCount ? tick / KEEP_EVERY : viewer->momentCount - 1;
+    int32_t nearest = tick > 0 ? (tick - 1) / KEEP_EVERY : 0; /* before it: a tick made anew has times */
+    nearest = nearest < viewer->momentCount ? nearest : viewer->momentCount - 1;
     if (tick < viewer->scene.tick || nearest * KEEP_EVERY > viewer->scene.tick) {
         const Moment* moment = &viewer->moments[nearest];
         if (kiriWorld_Restore(viewer->scene.world, moment->bytes, moment->size) != KIRI_OK) {
@@ -73,10 +78,19 @@ static bool GoTo(Viewer* viewer, int32_t tick)
     return true;
 }
 
+static double ReadClock(void* user)
+{
+    struct timespec now;
+    (void)user;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static bool Open(Viewer* viewer, const char* path)
 {
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
+    def.clock = ReadClock;
     if (!SceneReplay_Start(&viewer->replay, path, &viewer->scene, Scene_GetType(0), &def)) {
         return false;
     }
@@ -111,6 +125,37 @@ static void Close(Viewer* viewer)
     }
 }
 
+static void FillBox(Image* image, int32_t left, int32_t top, int32_t width, int32_t height, const uint8_t color[3])
+{
+    for (int32_t i = 0; i < width * height; i++) {
+        memcpy(image->rgb + 3 * (image->width * (top + i / width) + left + i % width), color, 3);
+    }
+}
+
+/* What the last tick took, stage by stage: milliseconds, and below them the items of kiriBudget. A bar across is 8 ms. */
+static void DrawBudget(const kiriWorld* world, Image* image)
+{
+    enum { LEFT = 12, TOP = 12, ROW = 20, SIZE = 13, NAME = 90, BAR_WIDTH = 200, PANEL = 380 };
+    static const uint8_t paper[3] = { 250, 248, 242 }, ink[3] = { 40, 42, 52 }, bar[3] = { 74, 122, 180 };
+    kiriProfile profile;
+    char words[160];
+    double sum = 0.0;
+    kiriWorld_GetProfile(world, &profile);
+    FillBox(image, LEFT, TOP, PANEL, ROW * (KIRI_STAGE_COUNT + 3), paper);
+    for (int32_t i = 0; i <= KIRI_STAGE_COUNT; i++) {
+        double seconds = i < KIRI_STAGE_COUNT ? profile.seconds[i] : sum;
+        int32_t top = TOP + 6 + ROW * i, width = (int32_t)(fmin(1.0, seconds / 8e-3) * BAR_WIDTH + 0.5);
+        sum += seconds;
+        snprintf(words, sizeof words, "%.2f ms", 1e3 * seconds);
+        Image_WriteText(image, i < KIRI_STAGE_COUNT ? kiriGetStageName(i) : "all", SIZE, LEFT + 8, top, ink);
+        FillBox(image, LEFT + NAME, top + 2, width, ROW - 8, bar);
+        Image_WriteText(image, words, SIZE, LEFT + NAME + BAR_WIDTH + 10, top, ink);
+    }
+    snprintf(words, sizeof words, "%d triangles, %d cells, %d samples, %d iterations", profile.trianglesSplit,
+             profile.cellsSettled, profile.samplesRefreshed, profile.solverIterations);
+    Image_WriteText(image, words, SIZE, LEFT + 8, TOP + 12 + ROW * (KIRI_STAGE_COUNT + 1), ink);
+}
+
 /* A bar below: the ticks played so far are dark, and the tick shown is red. */
 static bool Draw(Viewer* viewer)
 {
@@ -122,6 +167,9 @@ static bool Draw(Viewer* viewer)
     if (!Shot_Take(&viewer->shot, &viewer->scene, &viewer->options, &viewer->image)) {
         fprintf(stderr, "no memory for a picture\n");
         return false;
+    }
+    if (viewer->showsBudget) {
+        DrawBudget(viewer->scene.world, &viewer->image);
     }
     float scale = (float)(WIDTH - 1) / (float)viewer->replay.ticks;
     int32_t shown = (int32_t)((float)viewer->scene.tick * scale), played = (viewer->momentCount - 1) * KEEP_EVERY;
@@ -168,7 +216,7 @@ static void TakeKey(Viewer* viewer, const GameEvent* event)
         bool* flag;
     } flags[] = { { ' ', &viewer->isPlaying }, { 'r', &debug->regions }, { 'l', &debug->links },
                   { 'c', &debug->cells },      { 'f', &debug->axes },    { 'k', &debug->contacts },
-                  { 'o', &debug->points } };
+                  { 'o', &debug->points },     { 'b', &viewer->showsBudget } };
     for (size_t i = 0; isDown && i < sizeof flags / sizeof flags[0]; i++) {
         *flags[i].flag ^= event->key == flags[i].key;
     }
@@ -242,7 +290,7 @@ static bool Write(Viewer* viewer, int count, char** words)
         long tick = strtol(words[i], &keys, 10);
         viewer->options = options;
         viewer->away = away;
-        viewer->isPlaying = false;
+        viewer->isPlaying = viewer->showsBudget = false;
         viewer->held = 0;
         if (!GoTo(viewer, (int32_t)tick)) {
             return false;
@@ -265,7 +313,7 @@ int main(int count, char** words)
             "kiri-view FILE                        a recording or a save, in a window\n"
             "kiri-view FILE [TICK[KEYS] PNG] ...   pictures of ticks after keys, without a window: 60rl, with arrows as <>+-\n\n"
             "Space plays and stops; left and right go by ticks, up and down nearer and away; the mouse turns, or drags the bar.\n"
-            "R regions, L links, C cells, F frames, K contacts, O collision points, W weights, Escape.\n");
+            "R regions, L links, C cells, F frames, K contacts, O collision points, W weights, B budget, Escape.\n");
         return 2;
     }
     viewer.options = (Options){ .debug = { .weightsOf = DEBUG_NO_FRAME, .contacts = true } };

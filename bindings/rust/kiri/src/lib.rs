@@ -281,6 +281,42 @@ impl Sheet {
         cut.end(world)?;
         Ok(cut)
     }
+
+    /// The pieces that hang together, in the order of their numbers.
+    pub fn pieces(self, world: &mut World) -> Result<Pieces<'_>> {
+        let pieces = 0..self.counts(world)?.pieces;
+        Ok(Pieces { world, sheet: self, pieces })
+    }
+}
+
+/// Pieces of a sheet, each found when it is asked for.
+#[derive(Debug)]
+pub struct Pieces<'w> {
+    world: &'w mut World,
+    sheet: Sheet,
+    pieces: std::ops::Range<i32>,
+}
+
+impl Iterator for Pieces<'_> {
+    type Item = Result<PieceState>;
+
+    fn next(&mut self) -> Option<Result<PieceState>> {
+        self.pieces.next().map(|piece| self.sheet.piece(self.world, piece))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.pieces.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Pieces<'_> {}
+
+impl<'a> Mesh<'a> {
+    /// Positions of the corners of each triangle, m.
+    pub fn triangles(&self) -> impl ExactSizeIterator<Item = [[f32; 3]; 3]> + 'a {
+        let positions = self.positions;
+        self.indices.iter().map(move |corners| corners.map(|i| positions[i as usize]))
+    }
 }
 
 // ---- Replay

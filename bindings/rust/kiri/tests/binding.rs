@@ -314,3 +314,17 @@ fn vectors_of_glam_and_mint_are_taken() {
     let state = ball.state(&world).unwrap();
     assert!(glam::Vec3::from(state.position) == glam::Vec3::X && state.rotation == <[f32; 9]>::from(turned));
 }
+
+#[test]
+fn pieces_and_triangles_are_iterated() {
+    let (mut world, sheet) = small();
+    sheet.cut(&mut world, &[[-0.1, 0.4], [1.1, 0.6]]).unwrap();
+    while world.tick(1.0 / 60.0, 2).unwrap() == kiri::Status::Pending {}
+    assert_eq!(sheet.pieces(&mut world).unwrap().len(), 2);
+    let areas = sheet.pieces(&mut world).unwrap().map(|piece| piece.unwrap().area);
+    assert!((areas.sum::<f64>() - 1.0).abs() < 1e-4);
+    let mesh = sheet.mesh(&world).unwrap();
+    assert_eq!(mesh.triangles().len(), mesh.indices.len());
+    let last = mesh.triangles().last().unwrap()[2];
+    assert_eq!(last, mesh.positions[mesh.indices.last().unwrap()[2] as usize]);
+}
