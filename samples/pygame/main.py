@@ -44,6 +44,7 @@ class Curtain:
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.22, position=(0.15, 0.24, 0.45))
         setup = vars(kiri.setup(kiri.SetupPreset.CURTAIN, 1.5, 1.0))
         self.substeps = setup.pop("substeps")
+        setup["material"].thickness, setup["material"].density = 0.002, 150.0  # felt: what falls lies flat, and is no heap
         self.sheet = self.world.create_rectangle(1.5, 1.0, position=(-0.75, 0.0, 0.18), axisU=(1, 0, 0), axisV=(0, 0, 1),
                                                  collisionPoints=400, touchesSheets=1, **setup)
         for i in range(7):
