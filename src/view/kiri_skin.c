@@ -92,7 +92,10 @@ void kiriCarriers_Fit(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDat
         bends[SampleAt(some, n)] = (kiriBend){ 0 };
     }
     int32_t linkCount = kiriLink_CountBorders(pulls->links, pulls->count); /* a patch does not bend over a fold */
-    for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && SampleAt(someLinks, n) < linkCount; ++n) {
+    KIRI_TIMES(n, ItemCount(someLinks, linkCount)) {
+        if (SampleAt(someLinks, n) >= linkCount) {
+            continue; /* the links of the next piece follow */
+        }
         const kiriLink* link = &pulls->links[SampleAt(someLinks, n)];
         KIRI_ASSERT(link->i >= 0 && link->i < count && link->j >= 0 && link->j < count);
         const kiriFrameData *i = &frames[link->i], *j = &frames[link->j];
