@@ -31,6 +31,14 @@ const seen = (tab, u, v) => tab.evaluate(([u, v]) => {
     return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
 }, [u, v]);
 
+/** Until no cut waits for its work, which has a budget. */
+const settle = (tab) => tab.evaluate(() => {
+    let ticks = 0;
+    do {
+        globalThis.game.step(1 / 60);
+    } while (globalThis.game.simulation.pending && ++ticks < 120);
+});
+
 /** points: of the window, or of the rest plane, which moves: then they are where they are when the hand is there. */
 async function drag(tab, points, steps = 6, rest = false) {
     const at = (point) => rest ? seen(tab, ...point) : point;
@@ -41,12 +49,7 @@ async function drag(tab, points, steps = 6, rest = false) {
         await tab.evaluate(() => globalThis.game.step(1 / 60));
     }
     await tab.mouse.up();
-    await tab.evaluate(() => { // until no cut waits for its work, which has a budget
-        let ticks = 0;
-        do {
-            globalThis.game.step(1 / 60);
-        } while (globalThis.game.simulation.pending && ++ticks < 120);
-    });
+    await settle(tab);
 }
 
 const pieces = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getCounts().pieces);
@@ -110,9 +113,11 @@ try {
         await picture(tab, `4_${name}`);
     }
     await tab.evaluate(() => globalThis.game.showSnowflake());
-    await pass(tab, 100);
+    await settle(tab);
+    await pass(tab, 200);
     await picture(tab, "5_snowflake");
     await tab.evaluate(() => globalThis.game.showLantern());
+    await settle(tab);
     await pass(tab, 150);
     await picture(tab, "6_lantern");
 

@@ -95,6 +95,7 @@ class Game {
         this.stage.scene.add(this.skin.mesh);
         this.panel.pressSheet(this.choice.sheet);
         this.panel.showFold(Boolean(simulation.options.origami));
+        this.panel.showStyles([]);
         this.behind = 0;
         this.seen = -1;
     }

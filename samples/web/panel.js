@@ -139,7 +139,7 @@ export class Panel {
         const link = await this.game.link();
         history.replaceState(null, "", link);
         await navigator.clipboard?.writeText(location.href).catch(() => {});
-        this.say(`Link copied: ${(location.href.length / 1024).toFixed(0)} KB, plays the same bits anywhere`);
+        this.say("Link copied: who opens it sees these cuts");
     }
 
     say(text) {
@@ -160,7 +160,7 @@ export class Panel {
         const { frames } = simulation.sheet ? simulation.sheet.getCounts() : { frames: 0 };
         const { gridResolution, substeps } = simulation.quality;
         document.getElementById("quality-says").textContent =
-            `${frames} frames carry it, a grid of ${gridResolution}, ${substeps} substeps: error about ` +
+            `${frames} frames, ${gridResolution} x ${gridResolution} cells, ${substeps} steps a tick: bends right to ` +
             `${["2", "0.8", "0.4"][simulation.options.quality]}\u00a0%`;
         this.slider.value = simulation.options.quality;
     }

@@ -82,7 +82,7 @@ export class Tear extends Grab {
         const { sheet, options } = this.game.simulation;
         if (options.material.toughness) {
             sheet.setTearing({ toughness: options.material.toughness });
-            this.notch(sheet, hit.restPoint);
+            this.notchFor = hit.restPoint;
         } else {
             this.game.panel.say("This sheet does not tear: cut it");
         }
@@ -93,19 +93,33 @@ export class Tear extends Grab {
         return PULL;
     }
 
-    /** From the nearest border but the upper one, above the finger or towards the middle. */
-    notch(sheet, [u, v]) {
+    move(ray) {
+        const before = this.at[0];
+        super.move(ray);
+        if (this.notchFor && this.at[0] !== before) {
+            this.notch(this.game.simulation.sheet, this.notchFor, Math.sign(before - this.at[0]));
+            this.notchFor = null;
+        }
+    }
+
+    /** From the nearest border but the upper one: above the finger, or on the side (1: right) that it goes away from. */
+    notch(sheet, [u, v], away) {
         const { near, beside, long } = NOTCH, aside = Math.min(u, SIZE - u), inward = Math.sign(SIZE / 2 - u) || 1, border = inward > 0 ? 0 : SIZE;
-        const along = aside < v ? [border, v + beside, inward, 0] : [u + beside * inward, 0, 0, 1];
+        const along = aside < v ? [border, v + beside, inward, 0] : [u + beside * away, 0, 0, 1];
         if (Math.min(aside, v) < near && along[1] < SIZE) {
             const cut = sheet.beginCut([along[0] - 0.002 * along[2], along[1] - 0.002 * along[3]]);
             cut.extend([along[0] + long * along[2], along[1] + long * along[3]]);
             cut.end();
+            if (along[2] === 0) { // the other hand holds the sheet beyond the notch; a side hangs from the rod
+                const rest = [Math.min(SIZE, Math.max(0, along[0] + beside * away)), 0.004];
+                this.other = sheet.createPin({ restPoint: rest, target: sheet.getPoint(rest).position });
+            }
         }
     }
 
     end() {
         super.end();
+        this.other?.destroy();
         const { sheet, options } = this.game.simulation;
         if (options.material.toughness) {
             sheet.setTearing({ toughness: 0 });
