@@ -2,8 +2,8 @@
 
    - Units are SI: metres, kilograms, seconds, newtons, pascals, radians.
    - World coordinates are right-handed, and no axis is up: gravity points down (manual, drawing).
-   - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
-   - A rotation is 9 floats, column after column.
+   - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres. A rotation is 9 floats: columns.
+   - Frames are the few rigid bodies that carry a sheet. A kiriDefault function fills a def, with its cookie: call it first.
    - A negative kiriResult is a failure: the world is as before the call, and kiriWorld_GetLastError() says why.
    - Sheets, cuts, frames, pins, obstacles, blades and seams are 32-bit ids. 0 is never a valid id. A stale id, or the id of
      another kind, gives KIRI_ERROR_ID.
