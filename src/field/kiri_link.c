@@ -1206,20 +1206,12 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 {
     const LinkUpdate* u = context;
     const kiriNewLink *x = &u->work->made.data[a], *y = &u->work->made.data[b];
-    if (!IsOfPair(&x->link, y->link.i, y->link.j)) {
+    if (y->link.fold != 0 || !IsOfPair(&x->link, y->link.i, y->link.j)) {
         return kiriLink_IsBefore(&x->link, &y->link);
     }
     KIRI_ASSERT(x->face != KIRI_NONE && y->face != KIRI_NONE);
     KIRI_ASSERT(x->face != y->face);
     return IsFaceBefore(u->grid, x->face, y->face);
-}
-
-/* Orders the links that were made, and reserves room for them and the kept ones. */
-static bool OrderMade(const LinkUpdate* u, int32_t kept, kiriBeforeFn* before)
-{
-    int64_t most = (int64_t)kept + u->work->made.count;
-    return kiriSort_Order(u->memory, &u->work->order, u->work->made.count, before, u) &&
-           kiriArrays_Reserve(u->memory, most, &u->links->next, &u->work->nextEnds, &u->links->was);
 }
 
 static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnds* ends, int32_t was)
@@ -1236,7 +1228,9 @@ static bool MergeLinks(const LinkUpdate* u)
     kiriLinks* links = u->links;
     kiriLinkWork* work = u->work;
     int32_t old = 0;
-    if (!OrderMade(u, links->links.count, IsMadeBefore)) {
+    int64_t most = (int64_t)links->links.count + work->made.count;
+    if (!kiriSort_Order(u->memory, &work->order, work->made.count, IsMadeBefore, u) ||
+        !kiriArrays_Reserve(u->memory, most, &links->next, &work->nextEnds, &links->was)) {
         return false;
     }
     links->next.count = work->nextEnds.count = links->was.count = links->changed = 0;
@@ -1250,7 +1244,7 @@ static bool MergeLinks(const LinkUpdate* u)
             }
         }
         if (made != NULL) {
-            bool hasOld = old < links->links.count && IsOfPair(&links->links.data[old], made->link.i, made->link.j);
+            bool hasOld = old < links->links.count && !kiriLink_IsBefore(&made->link, &links->links.data[old]);
             links->changed += !hasOld || memcmp(&links->links.data[old], &made->link, sizeof(made->link)) != 0;
             old += hasOld;
             AddNext(u, &made->link, &made->ends, KIRI_NONE);
@@ -1537,37 +1531,20 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
     return true;
 }
 
-static bool IsFoldBefore(const void* context, int32_t a, int32_t b)
-{
-    const kiriNewLink* made = ((const LinkUpdate*)context)->work->made.data;
-    const kiriLink *x = &made[a].link, *y = &made[b].link;
-    return x->i == y->i && x->j == y->j ? a < b : kiriLink_IsBefore(x, y);
-}
-
 /* Appends the links of folds to the others, with what the host has set of each fold by now. */
 static bool AppendFoldLinks(const LinkUpdate* u)
 {
-    kiriLinks* links = u->links;
-    kiriLinkWork* work = u->work;
-    int32_t old = 0;
-    KIRI_ASSERT(links->next.count == work->nextEnds.count && links->next.count == links->was.count);
-    if (!OrderMade(u, links->next.count, IsFoldBefore)) {
-        return false;
-    }
-    KIRI_EACH_INDEX(k, work->order) {
-        kiriNewLink* made = &work->made.data[work->order.data[k]];
-        const kiriFoldLine* line = &u->grid->mesh->folds.data[made->link.fold - 1];
-        made->link.hinge = line->stiffness;
-        made->link.rest = line->restAngle;
-        made->link.yield = line->yieldMoment;
-        while (old < links->links.count && kiriLink_IsBefore(&links->links.data[old], &made->link)) {
-            ++old;
+    bool any = false;
+    KIRI_EACH(kiriNewLink, made, u->work->made) {
+        if (made->link.fold != 0) {
+            const kiriFoldLine* line = &u->grid->mesh->folds.data[made->link.fold - 1];
+            made->link.hinge = line->stiffness;
+            made->link.rest = line->restAngle;
+            made->link.yield = line->yieldMoment;
+            any = true;
         }
-        bool isSame = old < links->links.count && memcmp(&links->links.data[old], &made->link, sizeof(made->link)) == 0;
-        links->changed += !isSame;
-        AddNext(u, &made->link, &made->ends, KIRI_NONE);
     }
-    return true;
+    return !any || MergeLinks(u);
 }
 
 /* ---- Updates ----------------------------------------------------------------------------------------------------- */
@@ -1704,7 +1681,6 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
             int32_t made = work->made.count;
             ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u);
             work->due += 2 * (int64_t)u->links->next.count;
-            work->made.count = 0;
         } else if (fold < work->foldCount) {
             ok = u->grid->mesh->folds.data[fold].isMade == 0 || MakeLinksOfFold(u, fold);
         } else if (fold == work->foldCount) {
@@ -1724,6 +1700,7 @@ static void EndLinks(kiriLinkWork* work)
         work->marks.data[*listed] = FACE_PASSED;
     }
     work->running = false;
+    work->made.count = 0;
 }
 
 kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
