@@ -656,100 +656,11 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
 }
 
-/* ---- The same of rigid frames in space: all is made of one 3 x 3 matrix ---- */
-
-/* How a member carries the point: its weight and arm r; and r x G, by columns of the springs G. */
-typedef struct Carrier {
-    int32_t frame;
-    double weight;
-    kiriVec3 arm, moment[3];
-} Carrier;
-
-/* Returns the columns of the sum of springs along axes. */
-static void SumSprings(const kiriPointSprings* at, kiriVec3 columns[3])
-{
-    memset(columns, 0, 3 * sizeof(kiriVec3));
-    KIRI_TIMES(e, KIRI_POINT_ROWS) {
-        kiriVec3 axis = at->axis[e], scaled = kiriVec3_Scale(at->spring[e], axis);
-        columns[0] = kiriVec3_AddScaled(columns[0], axis.x, scaled);
-        columns[1] = kiriVec3_AddScaled(columns[1], axis.y, scaled);
-        columns[2] = kiriVec3_AddScaled(columns[2], axis.z, scaled);
-    }
-}
-
-static void StoreScaled(double scale, kiriVec3 a, double* out)
-{
-    out[0] = scale * a.x;
-    out[1] = scale * a.y;
-    out[2] = scale * a.z;
-}
-
-/* Writes the block of two members, both weights included. Rows are unknowns of the first member:
-   | G        (r2 x G)^T      |
-   | r1 x G   r1 x (r2 x G)^T | */
-static void WriteBlock(const kiriVec3 springs[3], const Carrier* down, const Carrier* across, double block[36])
-{
-    double weight = down->weight * across->weight;
-    const kiriVec3* m = across->moment;
-    const kiriVec3 turned[3] = { { m[0].x, m[1].x, m[2].x }, { m[0].y, m[1].y, m[2].y }, { m[0].z, m[1].z, m[2].z } };
-    KIRI_TIMES(c, 3) {
-        StoreScaled(weight, springs[c], &block[6 * c]);
-        StoreScaled(weight, down->moment[c], &block[6 * c + 3]);
-        StoreScaled(weight, turned[c], &block[6 * c + 18]);
-        StoreScaled(weight, kiriVec3_Cross(down->arm, turned[c]), &block[6 * c + 21]);
-    }
-}
-
-static void AddCarried(kiriSolver* solver, const Carrier* carrier, kiriVec3 pull)
-{
-    double* force = &solver->force.data[6 * carrier->frame];
-    kiriVec3 along = kiriVec3_Scale(carrier->weight, pull), moment = kiriVec3_Cross(carrier->arm, along);
-    const double add[6] = { along.x, along.y, along.z, moment.x, moment.y, moment.z };
-    KIRI_TIMES(n, 6) {
-        force[n] += add[n];
-    }
-}
-
-static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                          const kiriPointSprings* at)
-{
-    Carrier carriers[KIRI_CONTACT_MEMBERS];
-    kiriVec3 springs[3], pull = { 0 };
-    int32_t count = 0;
-    SumSprings(at, springs);
-    KIRI_TIMES(e, KIRI_POINT_ROWS) {
-        pull = kiriVec3_AddScaled(pull, at->pull[e], at->axis[e]);
-    }
-    KIRI_TIMES(m, step->memberCount) {
-        Carrier* carrier = &carriers[count];
-        carrier->frame = step->members[m].frame;
-        carrier->weight = step->members[m].value;
-        carrier->arm = kiriSystem_Arm(system, carrier->frame, step->members[m].at, &solver->poses.data[carrier->frame]);
-        KIRI_TIMES(c, 3) {
-            carrier->moment[c] = kiriVec3_Cross(carrier->arm, springs[c]);
-        }
-        count += !system->frames[carrier->frame].held;
-    }
-    KIRI_TIMES(a, count) {
-        AddCarried(solver, &carriers[a], pull);
-        for (int32_t b = 0; b <= a; ++b) {
-            double block[36];
-            WriteBlock(springs, &carriers[a], &carriers[b], block);
-            kiriMatrix_AddBlock(solver->matrix, carriers[a].frame, carriers[b].frame, block);
-        }
-    }
-}
-
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
         kiriPointSprings at = SpringsOf(step, step->row->normal);
-        bool isRigid = !kiriMechanics_IsAffine(&system->mechanics) && !system->mechanics.planar && !step->row->isFold;
-        if (isRigid) {
-            AssembleRigid(solver, system, step, &at);
-        } else {
-            kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, NULL, &at);
-        }
+        kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, NULL, &at);
     }
 }
 

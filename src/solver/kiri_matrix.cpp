@@ -599,18 +599,6 @@ extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const doubl
     }
 }
 
-extern "C" void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t across, const double* block)
-{
-    int32_t row = matrix->order.data[down], column = matrix->order.data[across];
-    double* out = BlockOf(matrix, FindBlock(matrix, row, column));
-    WithSize(matrix, [=](auto size) {
-        using Block = Eigen::Matrix<double, size.value, size.value>;
-        Eigen::Map<const Block> in(block);
-        Eigen::Map<Block> sum(out);
-        row < column ? sum += in.transpose() : sum += in;
-    });
-}
-
 extern "C" void kiriMatrix_GetBlock(const kiriMatrix* matrix, int32_t down, int32_t across, double* block)
 {
     int32_t size = matrix->size, row = matrix->order.data[down], column = matrix->order.data[across];

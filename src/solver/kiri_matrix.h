@@ -56,10 +56,6 @@ void kiriMatrix_Clear(kiriMatrix* matrix);
 /* Adds a symmetric block of size x size to the diagonal block of a frame. */
 void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
 
-/* Adds a block of a pair in the pattern and its mirror. Columns of the block are unknowns of frame `across`, rows those
-   of frame `down`. The block is symmetric if both frames are the same. */
-void kiriMatrix_AddBlock(kiriMatrix* matrix, int32_t down, int32_t across, const double* block);
-
 /* Copies a block in the pattern as it was added: for tools that compare solvers. */
 void kiriMatrix_GetBlock(const kiriMatrix* matrix, int32_t down, int32_t across, double* block);
 
