@@ -61,7 +61,7 @@ static kiriMat3 Orthonormal(kiriMat3 m)
     }
     kiriVec3 v = kiriVec3_AddScaled(m.v, -kiriVec3_Dot(r.u, m.v), r.u);
     if (!(kiriVec3_Length(v) > 1e-9 * lv)) {
-        kiriVec3 axis = fabs(r.u.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
+        kiriVec3 axis = kiriVec3_OtherAxis(r.u);
         v = kiriVec3_AddScaled(axis, -kiriVec3_Dot(r.u, axis), r.u);
     }
     r.v = kiriVec3_Normalize(v);

@@ -190,6 +190,12 @@ static inline kiriVec3 kiriVec3_Across(kiriVec3 a, kiriVec3 unit)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, unit), unit);
 }
 
+/* Returns an axis of space that is not along a unit vector. */
+static inline kiriVec3 kiriVec3_OtherAxis(kiriVec3 unit)
+{
+    return fabs(unit.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
+}
+
 static inline double kiriVec3_Length(kiriVec3 a)
 {
     return sqrt(kiriVec3_Dot(a, a));

@@ -606,9 +606,8 @@ static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiri
 /* Finds two axes of the plane. The first is along the slide if it slips. */
 static void FindAxes(const kiriContactStep* step, kiriVec3 normal, kiriVec3 axes[2])
 {
-    kiriVec3 other = fabs(normal.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
     bool slips = !step->sticks && kiriVec3_Length(step->direction) > 0.5;
-    axes[1] = kiriVec3_Normalize(kiriVec3_Cross(normal, slips ? step->direction : other));
+    axes[1] = kiriVec3_Normalize(kiriVec3_Cross(normal, slips ? step->direction : kiriVec3_OtherAxis(normal)));
     axes[0] = kiriVec3_Cross(axes[1], normal);
 }
 

@@ -192,19 +192,26 @@ static bool IsPushed(const kiriSolver* solver)
 /* Four points of a region, each with a quarter of its area, have its area, its centroid and its second moments. */
 enum { SAMPLES = 4 };
 
-typedef struct WindSpring {
+/* A spring of the wind or of a pin on a point of a frame. */
+typedef struct Spring {
+    int32_t frame;
     kiriVec2 at;
     kiriVec3 normal, target;
     double across, along; /* N/m: along the normal, and in the plane */
-} WindSpring;
+} Spring;
 
-static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, int32_t f, int k)
+static Spring SpringOfPin(const kiriPinRow* pin)
+{
+    return (Spring){ pin->frame, pin->at, { 0.0, 0.0, 1.0 }, pin->target, pin->stiffness, pin->stiffness };
+}
+
+static Spring SpringOfWind(const kiriSolver* solver, const kiriSystem* system, int32_t f, int k)
 {
     const kiriFrameData* frame = &solver->before.data[f];
     const kiriPrediction* prediction = &solver->predictions.data[f];
     const kiriAir* air = kiriSystem_AirOf(system, f);
     double part = solver->stepping.part;
-    WindSpring spring;
+    Spring spring = { .frame = f };
     /* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
     double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
     double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
@@ -229,7 +236,7 @@ static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, i
     return spring;
 }
 
-static kiriVec3 ForceOf(const WindSpring* spring, kiriVec3 point)
+static kiriVec3 ForceOf(const Spring* spring, kiriVec3 point)
 {
     kiriVec3 off = kiriVec3_Sub(spring->target, point);
     double across = kiriVec3_Dot(off, spring->normal);
@@ -246,18 +253,11 @@ bool kiriSystem_HasWind(const kiriSystem* system)
     return has;
 }
 
-static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses,
-                          kiriStepEnergy* sum)
+static double SpringEnergy(const kiriSystem* system, const Spring* spring, const kiriPose* poses)
 {
-    KIRI_TIMES(f, system->frameCount) {
-        KIRI_TIMES_WHILE(!system->frames[f].held, k, SAMPLES) {
-            WindSpring spring = SpringAt(solver, system, f, k);
-            kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, f, spring.at, poses), spring.target);
-            double across = kiriVec3_Dot(off, spring.normal);
-            sum->objective +=
-                0.5 * spring.along * kiriVec3_Dot(off, off) + 0.5 * (spring.across - spring.along) * across * across;
-        }
-    }
+    kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, spring->frame, spring->at, poses), spring->target);
+    double across = kiriVec3_Dot(off, spring->normal);
+    return 0.5 * spring->along * kiriVec3_Dot(off, off) + 0.5 * (spring->across - spring->along) * across * across;
 }
 
 /* Uses the larger of the work by the force at the start and at the end of the step, because it only guards against
@@ -268,11 +268,11 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
     const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
     double part = solver->stepping.part, first = 0.0, last = 0.0;
     KIRI_TIMES(k, SAMPLES) {
-        WindSpring spring = SpringAt(solver, system, f, k);
+        Spring spring = SpringOfWind(solver, system, f, k);
         kiriVec3 from = kiriFrame_Carry(start, spring.at), to = kiriFrame_Carry(end, spring.at);
         kiriVec3 way = kiriVec3_Sub(to, from);
         kiriVec3 past = kiriVec3_Sub(kiriSystem_AirOf(system, f)->velocity, kiriFrame_VelocityAt(start, spring.at));
-        WindSpring before = spring;
+        Spring before = spring;
         before.target = kiriVec3_AddScaled(from, part, past);
         first += kiriVec3_Dot(way, ForceOf(&before, from));
         last += kiriVec3_Dot(way, ForceOf(&spring, to));
@@ -284,7 +284,7 @@ static kiriWrench WindOnFrame(const kiriSolver* solver, const kiriSystem* system
 {
     kiriWrench sum = { 0 };
     KIRI_TIMES(k, SAMPLES) {
-        WindSpring spring = SpringAt(solver, system, f, k);
+        Spring spring = SpringOfWind(solver, system, f, k);
         kiriVec3 point = kiriSystem_Point(system, f, spring.at, solver->poses.data);
         kiriVec3 force = ForceOf(&spring, point);
         kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[f].x), force) };
@@ -312,16 +312,16 @@ static void AddFlow(kiriStepEnergy* sum, double flow)
 static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, kiriStepEnergy* sum)
 {
     KIRI_TIMES(k, system->pinCount) {
-        const kiriPinRow* pin = &system->pins[k];
-        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
-        AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
+        Spring spring = SpringOfPin(&system->pins[k]);
+        AddEnergy(sum, SpringEnergy(system, &spring, poses), 0.0);
     }
     AddEnergy(sum, kiriStitches_Energy(system, poses), 0.0);
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
-    if (kiriSystem_HasWind(system)) {
-        AddWindEnergy(solver, system, poses, sum);
+    KIRI_TIMES_WHILE(kiriSystem_HasWind(system), n, SAMPLES * system->frameCount) {
+        Spring spring = SpringOfWind(solver, system, n / SAMPLES, n % SAMPLES);
+        sum->objective += system->frames[spring.frame].held ? 0.0 : SpringEnergy(system, &spring, poses);
     }
 }
 
@@ -799,35 +799,18 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     kiriSolver_AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
 
-static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
-                      double length, double stiffness)
+static void AddSpring(kiriSolver* solver, const kiriSystem* system, const Spring* spring)
 {
-    kiriVec2 local = kiriVec2_Sub(at, system->frames[f].center);
-    double J[KIRI_MOST_UNKNOWNS], pull = -stiffness * length;
-    kiriFrameRow row = { { axis, kiriVec3_Scale(local.x, axis), kiriVec3_Scale(local.y, axis), { 0.0, 0.0, 0.0 } } };
-    if (!kiriMechanics_IsAffine(&system->mechanics)) {
-        row.by[1] = kiriVec3_Cross(kiriSystem_Arm(system, f, at, &solver->poses.data[f]), axis);
+    kiriVec3 force = ForceOf(spring, kiriSystem_Point(system, spring->frame, spring->at, solver->poses.data));
+    const kiriContactMember member = { spring->frame, 1.0, spring->at };
+    kiriPointSprings at = { .spring = { spring->across, spring->along, spring->along } };
+    at.axis[0] = spring->normal;
+    at.axis[1] = kiriVec3_Normalize(kiriVec3_Cross(spring->normal, kiriVec3_OtherAxis(spring->normal)));
+    at.axis[2] = kiriVec3_Cross(at.axis[1], spring->normal);
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
+        at.pull[e] = kiriVec3_Dot(force, at.axis[e]);
     }
-    kiriSolver_Reduce(solver, &row, J);
-    kiriSolver_AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
-}
-
-static void AddWind(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES(f, system->frameCount) {
-        KIRI_TIMES_WHILE(!system->frames[f].held, k, SAMPLES) {
-            WindSpring spring = SpringAt(solver, system, f, k);
-            kiriVec3 n = spring.normal, x = kiriSystem_Point(system, f, spring.at, solver->poses.data);
-            kiriVec3 off = kiriVec3_Sub(x, spring.target);
-            kiriVec3 axis = fabs(n.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
-            kiriVec3 side = kiriVec3_Normalize(kiriVec3_Cross(n, axis)), ahead = kiriVec3_Cross(side, n);
-            AddSpring(solver, system, f, spring.at, n, kiriVec3_Dot(off, n), spring.across);
-            if (spring.along > 0.0) {
-                AddSpring(solver, system, f, spring.at, side, kiriVec3_Dot(off, side), spring.along);
-                AddSpring(solver, system, f, spring.at, ahead, kiriVec3_Dot(off, ahead), spring.along);
-            }
-        }
-    }
+    kiriSolver_AddPointSprings(solver, system, &member, 1, NULL, &at);
 }
 
 /* ---- The linear system ---- */
@@ -854,19 +837,16 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         AddElement(solver, system, k, &sum);
     }
     KIRI_TIMES(k, system->pinCount) {
-        const kiriPinRow* pin = &system->pins[k];
-        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-        const kiriVec3 axes[3] = KIRI_AXES;
-        KIRI_TIMES_WHILE(!system->frames[pin->frame].held, a, 3) {
-            AddSpring(solver, system, pin->frame, pin->at, axes[a], kiriVec3_Dot(off, axes[a]), pin->stiffness);
-        }
+        Spring spring = SpringOfPin(&system->pins[k]);
+        AddSpring(solver, system, &spring);
     }
     kiriStitches_Assemble(solver, system);
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         kiriContact_Assemble(solver, system, contact);
     }
-    if (kiriSystem_HasWind(system)) {
-        AddWind(solver, system);
+    KIRI_TIMES_WHILE(kiriSystem_HasWind(system), n, SAMPLES * system->frameCount) {
+        Spring spring = SpringOfWind(solver, system, n / SAMPLES, n % SAMPLES);
+        AddSpring(solver, system, &spring);
     }
     solver->isAlong = true; /* contacts know where they are: nothing has moved since LinearizeContacts */
     AddHost(solver, system, solver->poses.data, &sum);
@@ -1143,7 +1123,8 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
     KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
-        kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
+        const Spring spring = SpringOfPin(pin);
+        kiriVec3 force = ForceOf(&spring, point);
         if (pin->reaction != NULL) {
             pin->reaction->now.force = force;
         }
