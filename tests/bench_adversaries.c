@@ -113,7 +113,7 @@ static kiriFrame FrameOfSmallest(Bed* bed)
     return frame;
 }
 
-/* To make the lists of pieces is a call by itself, which no budget limits: bench_pieces has what it takes. */
+/* To make the lists of pieces is a call by itself, which no budget limits. */
 static bool CutCorner(Bed* bed)
 {
     bool fine = CutAlong(bed, 0, (float[]){ 0.81f, -0.1f, 0.8f, 0.21f, 1.1f, 0.2f }, 3) && Bed_Finish(bed);

@@ -318,3 +318,33 @@ TEST(Strained)
         World_Copy(host.world, host.world, tick % 2 == 0 ? kiriWorld_Save : kiriWorld_Snapshot);
     }
 }
+
+/* A sheet is thrown about its pins at 1 to 3 m/s: each point is drawn at its pin, whether a vertex is there or not. */
+TEST(PinnedPointsAreDrawnAtTheirPins)
+{
+    static const float points[4][2] = { { 0.0f, 1.0f }, { 1.0f, 1.0f }, { 0.52f, 1.0f }, { 0.31f, 0.73f } };
+    for (int n = 0; n < 12; ++n) {
+        START_HOST(host);
+        kiriSheetDef def = SheetOf(32, n % 4 < 2 ? 9 : 25);
+        OK(kiriGetMaterial(n / 4, &def.material)); /* paper, cotton, rubber */
+        def.skinning = n % 2;
+        Set3(def.axisV, 0.0f, 0.0f, 1.0f);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+        for (int k = 0; k < 4; ++k) {
+            kiriPinDef pin = DefaultPin();
+            memcpy(pin.restPoint, points[k], sizeof(pin.restPoint));
+            Set3(pin.target, points[k][0], 0.0f, points[k][1]);
+            World_AddPin(host.world, sheet, &pin);
+        }
+        OK(kiriSheet_SetVelocity(host.world, sheet, (const float[3]){ 0.0f, 1.0f + (float)(n % 3), 0.0f }, noVector));
+        for (int tick = 0; tick < 60; ++tick) {
+            OK(Host_Tick(&host, dt, 2));
+            for (int k = 0; k < 4; ++k) {
+                kiriPointState at;
+                OK(kiriSheet_GetPoint(host.world, sheet, points[k], &at));
+                at.position[0] -= points[k][0];
+                assert_true(hypot(hypot(at.position[0], at.position[1]), at.position[2] - points[k][1]) < 1e-4);
+            }
+        }
+    }
+}

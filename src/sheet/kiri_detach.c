@@ -357,7 +357,7 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     to->settings.collisionPoints *= share; /* counts over the whole sheet are divided by area */
     to->settings.integrationPoints *= share;
     to->settings.maxFrames = 0;
-    to->seen.surface.detail.isSewn = from->seen.surface.detail.isSewn;
+    to->seen.surface.detail.isHeld = from->seen.surface.detail.isHeld;
     kiriSettings_Apply(to);
     to->plastics.isKept = from->plastics.isKept;
     to->seen.bounds->patience = from->seen.bounds->patience;

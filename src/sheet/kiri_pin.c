@@ -561,6 +561,84 @@ static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint
     return true;
 }
 
+/* ---- Drawn points ---- */
+
+#define DRAW_ROUNDS 64  /* over pins that share frames */
+#define DRAWN 1e-6      /* of the longer side: nearer to its pin a point is drawn as it is */
+#define DRAW_REACH 0.5  /* of the side of a region: farther points are moved in part, and from twice as far not at all */
+
+/* Returns how far the shifts move a vertex. */
+static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
+{
+    kiriVec3 sum = { 0 };
+    KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[vertex]) {
+        const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
+        sum = kiriVec3_AddScaled(sum, weight->value, sheet->seen.surface.detail.shifts.data[weight->frame]);
+    }
+    return sum;
+}
+
+/* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
+static double ShiftToPin(kiriSheetData* sheet, const kiriPinData* pin, const kiriFrameData* frame,
+                         const kiriPointPlace* place)
+{
+    const kiriVec3 normal = sheet->settings.mechanics.axes.d;
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    kiriVec3 skin = kiriPoint_Position(sheet, place), way = kiriVec3_Sub(pin->target, skin);
+    way = sheet->settings.mechanics.planar ? kiriVec3_AddScaled(way, -kiriVec3_Dot(way, normal), normal) : way;
+    double reach = DRAW_REACH * sqrt(frame->area), part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
+    kiriVec3 missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, place));
+    double square = 0.0;
+    KIRI_EACH_CORNER(k) {
+        missing = kiriVec3_AddScaled(missing, -place->shares[k], ShiftOf(sheet, corners[k]));
+        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[corners[k]]) {
+            const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
+            square += place->shares[k] * weight->value * ShareAt(sheet, place, weight->frame);
+        }
+    }
+    KIRI_ASSERT(square > 0.0);
+    KIRI_EACH_CORNER(k) {
+        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[corners[k]]) {
+            const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
+            kiriVec3* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
+            *shift = kiriVec3_AddScaled(*shift, place->shares[k] * weight->value / square, missing);
+        }
+    }
+    return kiriVec3_Length(missing);
+}
+
+void kiriPins_Draw(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    double least = DRAWN * surface->longer, apart = HUGE_VAL;
+    bool isAny = false;
+    if (surface->isWritten || !kiriSurface_HasDetail(surface) || sheet->pins.count == 0 || sheet->sewn.count > 0) {
+        return;
+    }
+    KIRI_EACH(kiriVec3, shift, surface->detail.shifts) {
+        *shift = (kiriVec3){ 0 };
+    }
+    for (int round = 0; round < DRAW_ROUNDS && apart > least; ++round) {
+        apart = 0.0;
+        KIRI_EACH_INDEX(i, sheet->pins) {
+            const kiriPinData* pin = &sheet->pins.data[i];
+            int32_t frame = sheet->layout.pinFrame.data[i];
+            kiriPointPlace place;
+            if (IsAwakePoint(sheet, i) && kiriPoint_Find(sheet, pin->at, &place) && ShareAt(sheet, &place, frame) > 0.0) {
+                double missing = ShiftToPin(sheet, pin, &sheet->frames.data[frame], &place);
+                apart = kiriMax(missing, apart);
+            }
+        }
+        isAny = isAny || apart > least;
+    }
+    KIRI_TIMES_WHILE(isAny, v, surface->vertexCount) {
+        if (kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, v)])) {
+            float* offset = surface->detail.offsets.data + 3 * (ptrdiff_t)v;
+            kiriVec3_Store(offset, kiriVec3_Add(kiriVec3_Load(offset), ShiftOf(sheet, v)));
+        }
+    }
+}
+
 /* Moves an offset by a fraction dt / SETTLING towards the measured one; at once if it is unknown. */
 static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured, bool isKnown, double dt)
 {

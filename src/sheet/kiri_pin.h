@@ -54,6 +54,12 @@ void kiriPins_SumShares(kiriSheetData* sheet);
 /* Clears the reactions of a tick in which the solver failed. */
 void kiriPins_ClearReactions(kiriSheetData* sheet);
 
+/* Draws pinned points at their pins. The skin blends several frames, smooth patches bend, and pins yield. So patches of the
+   frames at a pin get one offset each of the drawn surface (kiriDetail), which fades with their weights. Motion, contacts
+   and blades do not see it. No offset where the skin is farther from its pin than a
+   region is wide, and in sheets with seams, whose lips move likewise. */
+void kiriPins_Draw(kiriSheetData* sheet);
+
 /* Targets of pins and held frames in the steps of a tick.
 
    Targets of the host are interpolated linearly over the steps.

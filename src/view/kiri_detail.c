@@ -18,6 +18,7 @@
 bool kiriDetail_Reserve(kiriDetail* detail, kiriMemory* memory, int64_t vertices, int64_t triangles, int32_t frames)
 {
     bool hasRoom = !kiriDetail_IsOn(detail) || (kiriArray_Reserve(memory, &detail->offsets, 3 * vertices) &&
+                                                kiriArray_Reserve(memory, &detail->shifts, frames) &&
                                                 kiriArray_Reserve(memory, &detail->drawn, 3 * vertices + 1));
     return hasRoom &&
            (detail->sweeps == 0 ||
@@ -37,6 +38,7 @@ void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames)
     }
     detail->offsets.count = detail->drawn.count = is;
     detail->awake.count = detail->sweeps > 0 ? frames : 0;
+    detail->shifts.count = kiriDetail_IsOn(detail) ? frames : 0;
     detail->isListed = false;
 }
 

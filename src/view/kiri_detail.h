@@ -18,7 +18,7 @@ typedef struct kiriDetailEdge {
 /* A vertex that the sweeps move. */
 typedef struct kiriDetailVertex {
     int32_t vertex;
-    float leash; /* m: longest offset; 0: held by a pin; below 0: by a seam */
+    float leash; /* m: longest offset; 0: held by a line or frame; below 0: by a seam or point */
     float share; /* 1 over the number of its edges; negative on the outline and on lips */
 } kiriDetailVertex;
 
@@ -26,8 +26,8 @@ typedef struct kiriDetailVertex {
 enum { KIRI_DETAIL_COLORS = 32, KIRI_MOST_DETAIL = 16 /* sweeps */ };
 
 typedef struct kiriDetail {
-    int32_t sweeps;            /* a tick; 0: offsets are of drawn lips alone */
-    bool isSewn;               /* it is, or was: drawn lips have offsets. Without both all arrays are empty */
+    int32_t sweeps;            /* a tick; 0: offsets are of drawn lips and pinned points alone */
+    bool isHeld;               /* it has, or had, seams or pins. Without both all arrays are empty */
     KIRI_ARRAY(float) offsets; /* m: from the skin to the drawn position, 3 a vertex */
     KIRI_ARRAY(float) drawn;   /* drawn positions, 3 a vertex, from where the skin's are */
     float longest;             /* m: no offset is longer along an axis */
@@ -40,12 +40,13 @@ typedef struct kiriDetail {
     KIRI_ARRAY(kiriDetailEdge) edges;         /* sorted by color */
     int32_t colorStart[KIRI_DETAIL_COLORS + 1];
     KIRI_ARRAY(uint8_t) awake;                /* per frame: awake when listed */
+    KIRI_ARRAY(kiriVec3) shifts;              /* m, scratch of a tick, per frame: of its patch, for pins */
     uint64_t pins;                            /* hash of the pins when listed */
 } kiriDetail;
 
 static inline bool kiriDetail_IsOn(const kiriDetail* detail)
 {
-    return detail->sweeps > 0 || detail->isSewn;
+    return detail->sweeps > 0 || detail->isHeld;
 }
 
 /* Reserves for these counts, if there is a layer. Resize sets the counts; new offsets are 0. */

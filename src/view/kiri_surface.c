@@ -184,11 +184,11 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
     kiriDetail_Resize(&surface->detail, vertices, frameCount);
 }
 
-static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isSewn)
+static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isHeld)
 {
-    bool wasOn = kiriSurface_HasDetail(surface), isOther = sweeps != surface->detail.sweeps || isSewn != surface->detail.isSewn;
+    bool wasOn = kiriSurface_HasDetail(surface), isOther = sweeps != surface->detail.sweeps || isHeld != surface->detail.isHeld;
     surface->detail.sweeps = sweeps;
-    surface->detail.isSewn = isSewn;
+    surface->detail.isHeld = isHeld;
     bool isOn = kiriSurface_HasDetail(surface);
     if (isOther) {
         kiriDetail_Resize(&surface->detail, surface->vertexCount, surface->carriers.count);
@@ -205,10 +205,20 @@ static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isSewn)
 
 void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
 {
-    SetLayer(surface, sweeps, surface->detail.isSewn);
+    SetLayer(surface, sweeps, surface->detail.isHeld);
 }
 
-void kiriSurface_SetSewn(kiriSurface* surface)
+bool kiriSurface_ReserveHeld(kiriSurface* surface, kiriMemory* memory)
+{
+    kiriDetail detail = surface->detail;
+    detail.isHeld = true;
+    bool hasRoom = kiriDetail_Reserve(&detail, memory, surface->vertexCount, surface->triangleCount, surface->carriers.count);
+    detail.isHeld = surface->detail.isHeld;
+    surface->detail = detail;
+    return hasRoom;
+}
+
+void kiriSurface_SetHeld(kiriSurface* surface)
 {
     SetLayer(surface, surface->detail.sweeps, true);
 }
@@ -656,11 +666,11 @@ KIRI_TABLE(DetailTable, kiriDetail, {
     KIRI_WITHIN(0, KIRI_MOST_DETAIL, sweeps),
     KIRI_FLOAT_ITEMS(offsets),
     KIRI_UNHASHED,
-    KIRI_BOOLS(isSewn),
+    KIRI_BOOLS(isHeld),
     KIRI_DROPPED(longest),
     KIRI_DROPPED(isListed),
     KIRI_DERIVED,
-    KIRI_ARRAYS(drawn, moving, crease, vertices, edges, awake),
+    KIRI_ARRAYS(drawn, moving, crease, vertices, edges, awake, shifts),
 })
 
 KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {

@@ -218,8 +218,9 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
 /* Turns the detail layer on or off, or changes its sweeps. Room is reserved. The next tick writes all positions. */
 void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps);
 
-/* Gives drawn vertices offsets, for seams. Room is reserved. The next tick writes all positions. */
-void kiriSurface_SetSewn(kiriSurface* surface);
+/* Gives drawn vertices offsets, for seams and pins. Reserve the room first. The next tick writes all positions. */
+bool kiriSurface_ReserveHeld(kiriSurface* surface, kiriMemory* memory);
+void kiriSurface_SetHeld(kiriSurface* surface);
 
 /* Adds the offsets of fades to the positions. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);

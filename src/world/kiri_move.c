@@ -831,6 +831,9 @@ static void Relax(const SkinTask* task, kiriSheetData* sheet, const kiriTasks* t
         kiriObstacles_PushDetail(task->world->obstacles.data, task->world->obstacles.count, sheet);
         kiriView_EndRelaxing(sheet);
     }
+    if (task->dt > 0.0) {
+        kiriPins_Draw(sheet);
+    }
 }
 
 static void BeginSheets(int32_t start, int32_t end, void* context)

@@ -367,12 +367,7 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
         hasRoom = kiriWeld_Make(world, made);
     }
     KIRI_TIMES_WHILE(hasRoom, end, 2) { /* the offsets of drawn lips */
-        kiriDetail detail = sheets[end]->seen.surface.detail;
-        detail.isSewn = true;
-        hasRoom = kiriDetail_Reserve(&detail, &sheets[end]->shown, sheets[end]->mesh.vertices.count,
-                                     sheets[end]->mesh.triangles.count, sheets[end]->frames.count);
-        detail.isSewn = sheets[end]->seen.surface.detail.isSewn;
-        sheets[end]->seen.surface.detail = detail;
+        hasRoom = kiriSurface_ReserveHeld(&sheets[end]->seen.surface, &sheets[end]->shown);
     }
     if (!hasRoom || why != NULL) {
         FreeSeam(world, made);
@@ -382,8 +377,8 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     made->bending = def->stiffness;
     made->restAngle = def->restAngle;
     made->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
-    kiriSurface_SetSewn(&sheets[0]->seen.surface);
-    kiriSurface_SetSewn(&sheets[1]->seen.surface);
+    kiriSurface_SetHeld(&sheets[0]->seen.surface);
+    kiriSurface_SetHeld(&sheets[1]->seen.surface);
     made->id = kiriPool_Add(&world->seamIds, made, 0);
     KIRI_NEXT(world->seams) = made;
     WakeSeam(world, made);

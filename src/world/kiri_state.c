@@ -244,7 +244,7 @@ static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
         KIRI_TIMES_WHILE(isFine, end, 2) {
             sheets[end] = kiriStitch_Sheet(world, stitch, end);
             isFine = fabs(kiriVec2_Length(stitch->inward[end]) - 1.0) < 1e-6 && sheets[end] != NULL &&
-                     !sheets[end]->settings.mechanics.planar && sheets[end]->seen.surface.detail.isSewn &&
+                     !sheets[end]->settings.mechanics.planar && sheets[end]->seen.surface.detail.isHeld &&
                      kiriMesh_Locate(&sheets[end]->mesh, stitch->at[end]) != KIRI_NONE &&
                      sheets[end]->settings.mechanics.model == sheets[0]->settings.mechanics.model;
         }
