@@ -222,8 +222,9 @@ sweep: packages-bench
 	$(BUILD)/tests/sweep_saves $(ARGS)
 
 scarce: packages-bench
-	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce
+	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce $(BUILD)/tests/test_refusals
 	$(BUILD)/tests/test_scarce all
+	$(BUILD)/tests/test_refusals all
 
 long: packages-bench
 	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting swipe toybox)

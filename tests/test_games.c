@@ -305,13 +305,13 @@ FIGURE(CurtainIsWon)
 {
     static Recorded recorded;
     int32_t won = 0;
-    for (int32_t i = 0; i < 8; i++) {
-        PlayDemo(&curtainGame, 1 + i % 4, 120 * (i / 4), 12 * GAME_RATE, &recorded);
+    for (int32_t i = 0; i < 4; i++) {
+        PlayDemo(&curtainGame, 1 + i, 0, 12 * GAME_RATE, &recorded);
         won += recorded.end.state == GAME_WON;
         assert_true(recorded.end.state != GAME_WON || recorded.end.score > 90);
     }
-    print_message("the demo wins %d of 8 curtains\n", won);
-    assert_true(won >= 2);
+    print_message("the demo wins %d of 4 curtains\n", won);
+    assert_true(won >= 1);
 }
 
 /* Mesa keeps its buffers of a picture. */

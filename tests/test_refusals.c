@@ -1,12 +1,18 @@
 /* What a refused allocation leaves behind: for each call that changes a world, with work on a cut waiting at each
-   stage, each allocation is refused once, and all from there on. */
+   stage, each seventh allocation is refused once, and all from there on; with the word "all" each one. */
 #include "every_call.h"
 #include "look.h"
 
 #include "layout_hash.h"
 
-/* Each seventh allocation of each fourth call is refused with sanitizers. */
-enum { STEP = IS_SANITIZED ? 7 : 1, CALLS = IS_SANITIZED ? 4 : 1 };
+/* Each step-th allocation of each CALLS-th call is refused. */
+enum { CALLS = IS_SANITIZED ? 4 : 1 };
+static int32_t step = IS_SANITIZED ? 13 : 7;
+
+SETUP
+{
+    step = count > 1 && strcmp(words[1], "all") == 0 ? 1 : step;
+}
 
 /* Where the work on a cut waits. */
 enum { NO_WORK = KIRI_STAGE_CONSTANTS /* and no limit */, NOT_BEGUN /* with a limit */, STATES };
@@ -144,7 +150,7 @@ static int32_t CheckCall(const EveryCall* call, int32_t work, bool once)
             fail_msg("%s, work %d, allocation %d: %s", call->name, work, refused,
                      Host_Hash(&s.tape.host) != hash ? "another hash" : "another look");
         }
-        refused += STEP;
+        refused += step;
     }
     After(&s, &poor);
     if (poor.result != rich.result || poor.hash != rich.hash || poor.look != rich.look || poor.end != rich.end ||
@@ -170,7 +176,7 @@ TEST(CallsRefused)
         }
     }
     print_message("%d allocations of %d calls refused\n", all, calls);
-    assert_true(all > 10000 / STEP / CALLS && calls > 25 / CALLS);
+    assert_true(all > 10000 / step / CALLS && calls > 25 / CALLS);
 }
 
 /* A tick that is refused memory keeps the work that is done, and in the end the layout is the same; so does
@@ -178,7 +184,7 @@ TEST(CallsRefused)
 static int32_t CheckWork(const EveryCall* call, int32_t work, bool isLifted, bool once)
 {
     uint64_t layout = OutcomeOf(call, work).layout;
-    for (int32_t refused = 0;; refused += STEP) {
+    for (int32_t refused = 0;; refused += step) {
         SCOPED(Stand, s, Stand_Stop);
         Outcome poor;
         Start(&s, work);
@@ -267,7 +273,7 @@ TEST(SnapshotAfterRefusal)
     for (int32_t work = 0; work < STATES; ++work) {
         int64_t n = 0;
         while (GoOnFromSnapshot(work, n)) {
-            n += STEP;
+            n += step;
         }
         assert_true(n > 4);
     }
@@ -278,7 +284,7 @@ TEST(DetachAfterRefusal)
 {
     kiriResult result = KIRI_ERROR_MEMORY;
     int32_t refused = 0;
-    for (; result == KIRI_ERROR_MEMORY; refused += STEP) {
+    for (; result == KIRI_ERROR_MEMORY; refused += step) {
         SCOPED(Stand, s, Stand_Stop);
         Start(&s, NO_WORK);
         result = CallPoorly(&s, &everyCall[TICK], refused, true);

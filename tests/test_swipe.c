@@ -275,25 +275,6 @@ static void CheckRuns(void** state)
     assert_int_equal(wrong, 0);
 }
 
-/* Seeds that left a bridge or a crumb once: layers that were lost and found again a little farther on, cuts that ended
-   on their own slit, two new layers a snap distance apart, an edge that lay nearly in the sheet, ways beside each other
-   within a few snap distances. */
-static void CheckOnceWrong(int32_t runs, const int32_t* seeds, int32_t count)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        assert_true(Run(&allRuns[runs], (uint32_t)seeds[i]));
-    }
-}
-
-FIGURE(SwipeOnceWrong)
-{
-    static const int32_t sways[] = { 88,   146,  195,  289,  327,  373,  430,  737,  812,   993,   1127,
-                                     1305, 1330, 1387, 1555, 1804, 1876, 1896, 2681, 10016, 11880, 13339 };
-    static const int32_t blown[] = { 15, 72, 86, 106, 124, 212, 237, 724 };
-    CheckOnceWrong(SWAYING_SWIPES, sways, sizeof(sways) / sizeof(sways[0]));
-    CheckOnceWrong(BLOWN_SWIPES, blown, sizeof(blown) / sizeof(blown[0]));
-}
-
 SETUP
 {
     runCount = count > 1 ? atoi(words[1]) : runCount;
