@@ -580,11 +580,12 @@ static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
 
 /* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
 static double ShiftToPin(kiriSheetData* sheet, const kiriPinData* pin, const kiriFrameData* frame,
-                         const kiriPointPlace* place)
+                         const kiriPointPlace* place, double dt)
 {
     const kiriVec3 normal = sheet->settings.mechanics.axes.d;
     const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    kiriVec3 skin = kiriPoint_Position(sheet, place), way = kiriVec3_Sub(pin->target, skin);
+    kiriVec3 skin = kiriPoint_Position(sheet, place), given = kiriVec3_Scale(-dt * dt, pin->bore.force);
+    kiriVec3 way = kiriVec3_Sub(kiriVec3_Add(pin->target, kiriMat3_Mul(pin->anchor.give, given)), skin);
     way = sheet->settings.mechanics.planar ? kiriVec3_AddScaled(way, -kiriVec3_Dot(way, normal), normal) : way;
     double reach = DRAW_REACH * sqrt(frame->area), part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
     kiriVec3 missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, place));
@@ -607,7 +608,7 @@ static double ShiftToPin(kiriSheetData* sheet, const kiriPinData* pin, const kir
     return kiriVec3_Length(missing);
 }
 
-void kiriPins_Draw(kiriSheetData* sheet)
+void kiriPins_Draw(kiriSheetData* sheet, double dt)
 {
     kiriSurface* surface = &sheet->seen.surface;
     double least = DRAWN * surface->longer, apart = HUGE_VAL;
@@ -625,7 +626,7 @@ void kiriPins_Draw(kiriSheetData* sheet)
             int32_t frame = sheet->layout.pinFrame.data[i];
             kiriPointPlace place;
             if (IsAwakePoint(sheet, i) && kiriPoint_Find(sheet, pin->at, &place) && ShareAt(sheet, &place, frame) > 0.0) {
-                double missing = ShiftToPin(sheet, pin, &sheet->frames.data[frame], &place);
+                double missing = ShiftToPin(sheet, pin, &sheet->frames.data[frame], &place, dt);
                 apart = kiriMax(missing, apart);
             }
         }

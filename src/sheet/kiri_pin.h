@@ -58,7 +58,7 @@ void kiriPins_ClearReactions(kiriSheetData* sheet);
    frames at a pin get one offset each of the drawn surface (kiriDetail), which fades with their weights. Motion, contacts
    and blades do not see it. No offset where the skin is farther from its pin than a
    region is wide, and in sheets with seams, whose lips move likewise. */
-void kiriPins_Draw(kiriSheetData* sheet);
+void kiriPins_Draw(kiriSheetData* sheet, double dt);
 
 /* Targets of pins and held frames in the steps of a tick.
 

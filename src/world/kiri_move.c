@@ -832,7 +832,7 @@ static void Relax(const SkinTask* task, kiriSheetData* sheet, const kiriTasks* t
         kiriView_EndRelaxing(sheet);
     }
     if (task->dt > 0.0) {
-        kiriPins_Draw(sheet);
+        kiriPins_Draw(sheet, task->dt);
     }
 }
 
