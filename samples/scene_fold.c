@@ -143,7 +143,7 @@ enum { CRANE_FOLDS = 64, CRANE_FIRST = 20, CRANE_LAST = 380 };
 static bool ReadFolds(Scene* scene, const SceneOptions* options, const char* name, kiriFold* folds)
 {
     char path[1024], text[4096];
-    Import drawing = { NULL };
+    Import drawing = { 0 };
     snprintf(path, sizeof path, "%s/%s.fold", options->dataFolder, name);
     FILE* file = fopen(path, "rb");
     size_t size = file != NULL ? fread(text, 1, sizeof text, file) : 0;

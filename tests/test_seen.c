@@ -319,19 +319,21 @@ TEST(Strained)
     }
 }
 
-/* A sheet is thrown about its pins at 1 to 3 m/s: each point is drawn at its pin, whether a vertex is there or not. */
+/* A sheet is thrown about its pins at 1 to 3 m/s: each point is drawn at its pin, whether a vertex is there or not;
+   corners at soft springs are drawn away from them. */
 TEST(PinnedPointsAreDrawnAtTheirPins)
 {
     static const float points[4][2] = { { 0.0f, 1.0f }, { 1.0f, 1.0f }, { 0.52f, 1.0f }, { 0.31f, 0.73f } };
-    for (int n = 0; n < 12; ++n) {
+    for (int n = 0; n < 13; ++n) {
         START_HOST(host);
         kiriSheetDef def = SheetOf(32, n % 4 < 2 ? 9 : 25);
-        OK(kiriGetMaterial(n / 4, &def.material)); /* paper, cotton, rubber */
+        OK(kiriGetMaterial(n % 12 / 4, &def.material)); /* paper, cotton, rubber */
         def.skinning = n % 2;
         Set3(def.axisV, 0.0f, 0.0f, 1.0f);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
         for (int k = 0; k < 4; ++k) {
             kiriPinDef pin = DefaultPin();
+            pin.stiffness = n < 12 ? 0.0f : 5.0f;
             memcpy(pin.restPoint, points[k], sizeof(pin.restPoint));
             Set3(pin.target, points[k][0], 0.0f, points[k][1]);
             World_AddPin(host.world, sheet, &pin);
@@ -343,7 +345,8 @@ TEST(PinnedPointsAreDrawnAtTheirPins)
                 kiriPointState at;
                 OK(kiriSheet_GetPoint(host.world, sheet, points[k], &at));
                 at.position[0] -= points[k][0];
-                assert_true(hypot(hypot(at.position[0], at.position[1]), at.position[2] - points[k][1]) < 1e-4);
+                double away = hypot(hypot(at.position[0], at.position[1]), at.position[2] - points[k][1]);
+                assert_true(n < 12 ? away < 1e-4 : tick < 30 || k > 1 || away > 5e-3);
             }
         }
     }

@@ -625,7 +625,8 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
             const kiriPinData* pin = &sheet->pins.data[i];
             int32_t frame = sheet->layout.pinFrame.data[i];
             kiriPointPlace place;
-            if (IsAwakePoint(sheet, i) && kiriPoint_Find(sheet, pin->at, &place) && ShareAt(sheet, &place, frame) > 0.0) {
+            bool isStiff = 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet) && IsAwakePoint(sheet, i);
+            if (isStiff && kiriPoint_Find(sheet, pin->at, &place) && ShareAt(sheet, &place, frame) > 0.0) {
                 double missing = ShiftToPin(sheet, pin, &sheet->frames.data[frame], &place, dt);
                 apart = kiriMax(missing, apart);
             }

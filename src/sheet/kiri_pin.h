@@ -54,10 +54,16 @@ void kiriPins_SumShares(kiriSheetData* sheet);
 /* Clears the reactions of a tick in which the solver failed. */
 void kiriPins_ClearReactions(kiriSheetData* sheet);
 
+/* Returns the stiffness of a pin whose def gives none, N/m. */
+static inline double kiriPins_Stiffness(const kiriSheetData* sheet)
+{
+    return 10.0 * sheet->settings.material.youngsModulus * sheet->settings.material.thickness;
+}
+
 /* Draws pinned points at their pins. The skin blends several frames, smooth patches bend, and pins yield. So patches of the
    frames at a pin get one offset each of the drawn surface (kiriDetail), which fades with their weights. Motion, contacts
-   and blades do not see it. No offset where the skin is farther from its pin than a
-   region is wide, and in sheets with seams, whose lips move likewise. */
+   and blades do not see it. No offset where the skin is farther from its pin than a region is wide, where a pin is softer
+   than a tenth of kiriPins_Stiffness (its spring is seen longer), and in sheets with seams, whose lips move likewise. */
 void kiriPins_Draw(kiriSheetData* sheet, double dt);
 
 /* Targets of pins and held frames in the steps of a tick.

@@ -292,9 +292,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     made.anchor.obstacle = def->obstacle;
     kiriPinStep_Fasten(world, &made);
     made.breakForce = def->breakForce;
-    made.stiffness = def->stiffness > 0.0f
-                         ? def->stiffness
-                         : 10.0 * data->settings.material.youngsModulus * data->settings.material.thickness;
+    made.stiffness = def->stiffness > 0.0f ? def->stiffness : kiriPins_Stiffness(data);
     KIRI_RETURN(AddNewPin(world, data, &made, frame, pin));
 }
 
