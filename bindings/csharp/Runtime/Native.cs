@@ -1169,7 +1169,7 @@ namespace Kiri
         public Float2 RestPoint;
         /// <summary>m, world</summary>
         public Float3 Target;
-        /// <summary>N/m, of a spring; drawn at its target. 0: ten times Young's modulus times thickness</summary>
+        /// <summary>N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target</summary>
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;

@@ -1838,7 +1838,7 @@ pub struct PinDef {
     pub rest_point: [f32; 2],
     /// m, world
     pub target: [f32; 3],
-    /// N/m, of a spring; drawn at its target. 0: ten times Young's modulus times thickness
+    /// N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
