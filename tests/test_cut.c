@@ -480,3 +480,29 @@ TEST(KnotsEnd)
         assert_true(Host_Counts(&host, sheet).vertices <= 2000 + (isSpiral ? 6 : 20) * count);
     }
 }
+
+/* Cuts from one point at small angles, straight or bent, close no loop: they cut nothing off. */
+TEST(StarsStayWhole)
+{
+    uint32_t seed = 271828;
+    for (int32_t i = 0; i < 40; ++i) {
+        const double x = RandomBetween(&seed, 0.4, 0.6), y = RandomBetween(&seed, 0.4, 0.6), bend = i % 3 * 0.1;
+        const double angle = RandomBetween(&seed, 0.01, 0.2), first = RandomBetween(&seed, 0.0, 6.0);
+        kiriSheetDef def = DefOf(16 << i % 3, i % 5 == 0 ? 1e-3 : 0.0);
+        START_HOST(host);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
+        for (int32_t n = 0; n < 20; ++n) {
+            float points[8] = { (float)x, (float)y };
+            for (int k = 1; k < 4; ++k) {
+                points[2 * k] = (float)(x + 0.12 * k * cos(first + n * angle + bend * k));
+                points[2 * k + 1] = (float)(y + 0.12 * k * sin(first + n * angle + bend * k));
+            }
+            Host_Cut(&host, sheet, points, 4);
+            if (i % 2 == 0) {
+                OK(Host_Tick(&host, 1e-3f, 1));
+            }
+        }
+        OK(Host_Tick(&host, 1e-3f, 1));
+        assert_int_equal(Host_Counts(&host, sheet).pieces, 1);
+    }
+}

@@ -606,7 +606,7 @@ static void Look(BladeWalk* walk)
     kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
     KIRI_ASSERT(!kiriLattice_IsSame(tip->from, tip->to));
     kiriLipStop stop;
-    bool isFound = kiriLip_FindStop(&corridor, tip->lip, &stop);
+    bool isFound = kiriLip_FindStop(&corridor, tip->vertex, tip->lip, &stop);
     int64_t progress = kiriCorridor_Progress(&corridor, tip->at);
     /* A blade that has left the line along a lip goes back at a small angle. */
     double side = fabs(kiriCorridor_Side(&corridor, tip->at)), square = corridor.length * corridor.length;

@@ -277,15 +277,14 @@ static bool AddPoint(const kiriCorridor* corridor, int32_t vertex, int32_t* vert
     return isAdded;
 }
 
-/* Returns true if lips lead from the vertex to a point ahead, on any way within the corridor: at most its width back, or
-   beyond the point. */
-static bool IsReached(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint to)
+/* Returns true if lips lead from the vertex to a point, on any way within the corridor: at most its width before `first`
+   or beyond the point. */
+static bool IsReached(kiriCorridor* corridor, int32_t vertex, double first, kiriLatticePoint to)
 {
     enum { MANY = 48 };
     int32_t vertices[MANY] = { vertex }, count = 1;
     const double width = 2.0 * corridor->reach * corridor->length;
-    const double least = (double)kiriCorridor_Progress(corridor, PointOf(corridor, vertex)) - width,
-                 most = (double)kiriCorridor_Progress(corridor, to) + width;
+    const double least = first - width, most = (double)kiriCorridor_Progress(corridor, to) + width;
     KIRI_TIMES(i, count) {
         LipsAround around = BeginLips(corridor, vertices[i]);
         while (NextLip(corridor, &around)) {
@@ -326,7 +325,7 @@ bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint lim
         }
     }
     int32_t last = kiriMesh_VertexAt(corridor->mesh, limit, &corridor->effort);
-    if (last != KIRI_NONE && IsReached(corridor, vertex, limit)) {
+    if (last != KIRI_NONE && IsReached(corridor, vertex, first, limit)) {
         *place = (kiriLipPoint){ corridor->mesh->vertices.data[last].edge, limit };
         return true;
     }
@@ -482,8 +481,20 @@ static bool IsLoose(kiriCorridor* corridor, int32_t vertex)
     return true;
 }
 
+/* Returns true if lips lead from the blade to a point at most twice the reach beside the line: a cut that joins it would cut
+   off a thin crumb. */
+static bool HasLeft(kiriCorridor* corridor, int32_t blade, kiriLatticePoint at)
+{
+    kiriCorridor wide = *corridor;
+    wide.reach *= 2.0;
+    bool hasLeft = blade != KIRI_NONE && IsReached(&wide, blade, 0.0, at);
+    corridor->effort = wide.effort;
+    return hasLeft;
+}
+
 /* Takes a vertex as the stop if it is to be joined, between `after` and the stop that was found before. */
-static void TakeStop(kiriCorridor* corridor, int32_t vertex, int64_t after, bool* isFound, kiriLipStop* stop)
+static void TakeStop(kiriCorridor* corridor, int32_t blade, int32_t vertex, int64_t after, bool* isFound,
+                     kiriLipStop* stop)
 {
     kiriLatticePoint at = PointOf(corridor, vertex);
     int64_t progress = kiriCorridor_Progress(corridor, at), last = kiriCorridor_Progress(corridor, corridor->to),
@@ -497,13 +508,14 @@ static void TakeStop(kiriCorridor* corridor, int32_t vertex, int64_t after, bool
     kiriLatticePoint foot =
         isOn ? at : kiriLattice_Between(corridor->from, corridor->to, (double)progress / (double)last);
     if (isOnLip &&
-        (isOn || (IsLoose(corridor, vertex) && kiriMesh_Locate(corridor->mesh, foot) != KIRI_NONE))) {
+        (isOn || (IsLoose(corridor, vertex) && kiriMesh_Locate(corridor->mesh, foot) != KIRI_NONE &&
+                  !HasLeft(corridor, blade, at)))) {
         *isFound = true;
         *stop = (kiriLipStop){ foot, at };
     }
 }
 
-bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipStop* stop)
+bool kiriLip_FindStop(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint after, kiriLipStop* stop)
 {
     KIRI_ASSERT(corridor->length > 0.0);
     const kiriMeshData* mesh = corridor->mesh;
@@ -516,7 +528,7 @@ bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipSto
             corridor->effort += PASSING_EFFORT;
             for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
                 corridor->effort += PASSING_EFFORT;
-                TakeStop(corridor, v, progress, &isFound, stop);
+                TakeStop(corridor, vertex, v, progress, &isFound, stop);
             }
         }
         /* Vertices of later strips are farther along the line. */

@@ -70,9 +70,9 @@ typedef struct kiriLipStop {
     kiriLatticePoint at;
 } kiriLipStop;
 
-/* The first such vertex beyond `after`. One beside the line is joined if no lip leads from it to the line, and no vertex
-   that lips lead to is nearer. False: there is none. */
-bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipStop* stop);
+/* Finds the first such vertex beyond `after`. One beside the line is joined if no lip leads from it to the line, or near the
+   line to the vertex at the blade (or KIRI_NONE), and no vertex that lips lead to is nearer. Returns false if there is none. */
+bool kiriLip_FindStop(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint after, kiriLipStop* stop);
 
 KIRI_C_END
 
