@@ -921,7 +921,7 @@ type PinDef struct {
 	RestPoint [2]float32
 	// m, world
 	Target [3]float32
-	// N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target
+	// N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual)
 	Stiffness float32
 	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32

@@ -1001,7 +1001,7 @@ export class PinDef {
     restPoint: number[];
     /** m, world */
     target: number[];
-    /** N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target */
+    /** N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual) */
     stiffness: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce: number;
@@ -1016,7 +1016,7 @@ export interface PinDefGiven {
     restPoint?: ArrayLike<number>;
     /** m, world */
     target?: ArrayLike<number>;
-    /** N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target */
+    /** N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual) */
     stiffness?: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce?: number;

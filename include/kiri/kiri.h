@@ -761,7 +761,7 @@ typedef struct kiriPinDef {
     uint32_t cookie;
     float restPoint[2]; /* m, in the material */
     float target[3];    /* m, world */
-    float stiffness;    /* N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target */
+    float stiffness;    /* N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual) */
     float breakForce;   /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     kiriObstacle obstacle; /* 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields
                               by its mass. If it is destroyed the target stays */

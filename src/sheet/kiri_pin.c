@@ -83,6 +83,7 @@ static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int6
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
            kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
+           kiriArray_Reserve(sheet->memory, &sheet->drawnPins, pins) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
            (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
@@ -578,31 +579,47 @@ static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
     return sum;
 }
 
-/* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
-static double ShiftToPin(kiriSheetData* sheet, const kiriPinData* pin, const kiriFrameData* frame,
-                         const kiriPointPlace* place, double dt)
+/* Lists a pinned point that is drawn at its pin, unless its pin is soft. */
+static void ListDrawn(kiriSheetData* sheet, int32_t index, double dt)
 {
+    const kiriPinData* pin = &sheet->pins.data[index];
+    const int32_t frame = sheet->layout.pinFrame.data[index];
+    kiriPointPlace place;
+    bool isStiff = 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet) && IsAwakePoint(sheet, index);
+    if (!isStiff || !kiriPoint_Find(sheet, pin->at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
+        return;
+    }
     const kiriVec3 normal = sheet->settings.mechanics.axes.d;
-    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    kiriVec3 skin = kiriPoint_Position(sheet, place), given = kiriVec3_Scale(-dt * dt, pin->bore.force);
+    kiriVec3 skin = kiriPoint_Position(sheet, &place), given = kiriVec3_Scale(-dt * dt, pin->bore.force);
     kiriVec3 way = kiriVec3_Sub(kiriVec3_Add(pin->target, kiriMat3_Mul(pin->anchor.give, given)), skin);
-    way = sheet->settings.mechanics.planar ? kiriVec3_AddScaled(way, -kiriVec3_Dot(way, normal), normal) : way;
-    double reach = DRAW_REACH * sqrt(frame->area), part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
-    kiriVec3 missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, place));
-    double square = 0.0;
+    way = sheet->settings.mechanics.planar ? kiriVec3_Across(way, normal) : way;
+    double reach = DRAW_REACH * sqrt(sheet->frames.data[frame].area);
+    double part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
+    kiriDrawnPin drawn = { .missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, &place)) };
     KIRI_EACH_CORNER(k) {
-        missing = kiriVec3_AddScaled(missing, -place->shares[k], ShiftOf(sheet, corners[k]));
-        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[corners[k]]) {
+        drawn.vertex[k] = sheet->mesh.triangles.data[place.triangle].vertex[k];
+        drawn.share[k] = place.shares[k];
+        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[drawn.vertex[k]]) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-            square += place->shares[k] * weight->value * ShareAt(sheet, place, weight->frame);
+            drawn.square += place.shares[k] * weight->value * ShareAt(sheet, &place, weight->frame);
         }
     }
-    KIRI_ASSERT(square > 0.0);
+    KIRI_ASSERT(drawn.square > 0.0);
+    KIRI_NEXT(sheet->drawnPins) = drawn;
+}
+
+/* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
+static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn)
+{
+    kiriVec3 missing = drawn->missing;
     KIRI_EACH_CORNER(k) {
-        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[corners[k]]) {
+        missing = kiriVec3_AddScaled(missing, -drawn->share[k], ShiftOf(sheet, drawn->vertex[k]));
+    }
+    KIRI_EACH_CORNER(k) {
+        KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[drawn->vertex[k]]) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
             kiriVec3* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
-            *shift = kiriVec3_AddScaled(*shift, place->shares[k] * weight->value / square, missing);
+            *shift = kiriVec3_AddScaled(*shift, drawn->share[k] * weight->value / drawn->square, missing);
         }
     }
     return kiriVec3_Length(missing);
@@ -616,20 +633,18 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     if (surface->isWritten || !kiriSurface_HasDetail(surface) || sheet->pins.count == 0 || sheet->sewn.count > 0) {
         return;
     }
+    sheet->drawnPins.count = 0;
+    KIRI_EACH_INDEX(i, sheet->pins) {
+        ListDrawn(sheet, i, dt);
+    }
     KIRI_EACH(kiriVec3, shift, surface->detail.shifts) {
         *shift = (kiriVec3){ 0 };
     }
     for (int round = 0; round < DRAW_ROUNDS && apart > least; ++round) {
         apart = 0.0;
-        KIRI_EACH_INDEX(i, sheet->pins) {
-            const kiriPinData* pin = &sheet->pins.data[i];
-            int32_t frame = sheet->layout.pinFrame.data[i];
-            kiriPointPlace place;
-            bool isStiff = 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet) && IsAwakePoint(sheet, i);
-            if (isStiff && kiriPoint_Find(sheet, pin->at, &place) && ShareAt(sheet, &place, frame) > 0.0) {
-                double missing = ShiftToPin(sheet, pin, &sheet->frames.data[frame], &place, dt);
-                apart = kiriMax(missing, apart);
-            }
+        KIRI_EACH(const kiriDrawnPin, drawn, sheet->drawnPins) {
+            double missing = ShiftToPin(sheet, drawn);
+            apart = kiriMax(missing, apart);
         }
         isAny = isAny || apart > least;
     }

@@ -192,6 +192,14 @@ typedef struct kiriProbes {
     kiriFlags marks;                 /* per vertex, while a piece folds: KIRI_FOLD_... of this tick */
 } kiriProbes;
 
+/* A pinned point that is drawn at its pin. */
+typedef struct kiriDrawnPin {
+    int32_t vertex[3];
+    double share[3];  /* barycentric coordinates */
+    kiriVec3 missing; /* m: from where the point is drawn to the pin, without shifts */
+    double square;    /* of the shares of frames, summed */
+} kiriDrawnPin;
+
 typedef struct kiriPinData {
     kiriPin id;
     uint64_t userData;       /* stored for the host */
@@ -528,6 +536,7 @@ typedef struct kiriSheetData {
     int64_t leavingPaid;                   /* samples already charged for detaching and destroying pieces */
 
     /* Buffers that are reserved in advance, so that a tick without a cut allocates nothing. */
+    KIRI_ARRAY(kiriDrawnPin) drawnPins; /* scratch of a tick */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* one for each point, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
     KIRI_ARRAY(kiriLinkPart) linkParts; /* of each link, what clamps leave; empty: all of every link */

@@ -350,7 +350,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PART(probes, ProbesTable),
     KIRI_ROOM_OF(sewn),
     KIRI_PART(tears, TearsTable),
-    KIRI_ROOMS(pinRows, clampRows),
+    KIRI_ROOMS(pinRows, clampRows, drawnPins),
     KIRI_KEPT(memory, shown),
     KIRI_DROPPED(solver, cuts),
     KIRI_DROPPED(line, lineShares),
@@ -655,7 +655,7 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
                   (!kiriSettings_Yield(&sheet->settings) || isPlastic) &&
                   sheet->plastics.links.count == (isPlastic ? links : 0) &&
                   sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0) &&
-                  sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares;
+                  sheet->pinRows.capacity >= pins && sheet->drawnPins.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares;
     KIRI_EACH_WHILE(isFine, const kiriSeveredLink, link, sheet->layout.severed) {
         isFine = link->link < links;
     }

@@ -1169,7 +1169,7 @@ namespace Kiri
         public Float2 RestPoint;
         /// <summary>m, world</summary>
         public Float3 Target;
-        /// <summary>N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target</summary>
+        /// <summary>N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual)</summary>
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;

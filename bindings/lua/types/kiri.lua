@@ -406,7 +406,7 @@ kiri.DRAW_ALL = 2047
 ---@field cookie? integer
 ---@field restPoint? number[]|ffi.cdata* # m, in the material
 ---@field target? number[]|ffi.cdata* # m, world
----@field stiffness? number # N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target
+---@field stiffness? number # N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual)
 ---@field breakForce? number # N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 ---@field obstacle? kiri.Obstacle # 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
 

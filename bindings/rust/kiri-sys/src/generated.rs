@@ -849,7 +849,8 @@ pub struct kiriPinDef {
     pub restPoint: [f32; 2],
     /// m, world
     pub target: [f32; 3],
-    /// N/m. 0: ten times Young's modulus times thickness; from a tenth of it on drawn at its target
+    /// N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target
+    /// (manual)
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
