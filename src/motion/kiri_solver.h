@@ -249,9 +249,9 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
 
 /* Moves the frames of a body by dt. Links, corners and area elements must be the committed ones; normals of contacts
    must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
-   KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more) and a fresh start. Returns -1 if the motion is not
-   finite: then the frames are unchanged. Allocates nothing. Reads forces on frames and does not clear them; adds to
-   reactions of rows and of held frames. */
+   KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more) and a fresh start. Returns -1 if the
+   motion is not finite: then the frames are unchanged. Allocates nothing. Reads forces on frames and does not clear them;
+   adds to reactions of rows and of held frames. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,
                         int32_t most);
 
@@ -266,8 +266,8 @@ void kiriSolver_FadeOffsets(const kiriSystem* system, kiriStrainOffset* offsets,
                             const kiriIndices* links, double keep, bool mayTouch);
 
 /* Elements join frames elastically. Their order is: links, except in the model of integration points; corners of these
-   links, unless Poisson's ratio is zero; area elements; clamps, which join a frame to a line. Each element has several strains, each with a stiffness; its
-   energy is the sum of 1/2 stiffness strain^2. */
+   links, unless Poisson's ratio is zero; area elements; clamps, which join a frame to a line. Each element has several
+   strains, each with a stiffness; its energy is the sum of 1/2 stiffness strain^2. */
 
 /* Upper limit of the number of strains of an element. */
 enum { KIRI_MOST_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };

@@ -319,7 +319,8 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
-    KIRI_TIMES_WHILE(kiriSystem_HasWind(system), n, SAMPLES * system->frameCount) {
+    int32_t springs = kiriSystem_HasWind(system) ? SAMPLES * system->frameCount : 0;
+    KIRI_TIMES(n, springs) {
         Spring spring = SpringOfWind(solver, system, n / SAMPLES, n % SAMPLES);
         sum->objective += system->frames[spring.frame].held ? 0.0 : SpringEnergy(system, &spring, poses);
     }
@@ -844,7 +845,8 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         kiriContact_Assemble(solver, system, contact);
     }
-    KIRI_TIMES_WHILE(kiriSystem_HasWind(system), n, SAMPLES * system->frameCount) {
+    int32_t springs = kiriSystem_HasWind(system) ? SAMPLES * system->frameCount : 0;
+    KIRI_TIMES(n, springs) {
         Spring spring = SpringOfWind(solver, system, n / SAMPLES, n % SAMPLES);
         AddSpring(solver, system, &spring);
     }
