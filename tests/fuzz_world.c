@@ -182,11 +182,11 @@ static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, do
 }
 
 /* No tick counts more items than its limit, but for a single linear system that is larger, and for up to three systems a
-   substep where a step is made anew. The three kinds of work on cuts share the limit. Their steps are all smaller than the
+   substep where a step starts again. The three kinds of work on cuts share the limit. Their steps are all smaller than the
    least limit, count as all of it, or are paid in parts. */
 static void CheckBudget(const kiriWorld* world, kiriResult result)
 {
-    enum { MOST_ANEW = 3 * 4 }; /* of mean size; fuzzers make at most 4 substeps */
+    enum { MOST_MORE = 3 * 4 }; /* of mean size; fuzzers make at most 4 substeps */
     kiriProfile profile = World_Profile(world);
     const int32_t limits[] = { world->budget.triangles, world->budget.cells, world->budget.samples,
                                world->budget.iterations };
@@ -196,8 +196,8 @@ static void CheckBudget(const kiriWorld* world, kiriResult result)
     for (int i = 0; i < 4; ++i) {
         share += i < 3 && limits[i] > 0 ? (double)items[i] / limits[i] : 0.0;
         bool isKept = result < 0 || limits[i] == 0 || items[i] <= limits[i];
-        bool isAnew = i == 3 && (items[i] - limits[i]) * profile.systemsSolved <= MOST_ANEW * items[i];
-        FUZZ_CHECK(isKept || isAnew, "a tick counts %d of %d items of kind %d", (int)items[i], (int)limits[i], i);
+        bool startsAgain = i == 3 && (items[i] - limits[i]) * profile.systemsSolved <= MOST_MORE * items[i];
+        FUZZ_CHECK(isKept || startsAgain, "a tick counts %d of %d items of kind %d", (int)items[i], (int)limits[i], i);
     }
     FUZZ_CHECK(result < 0 || share <= 1.0 + 1e-9, "work on cuts takes %.17g of a tick", share);
 }

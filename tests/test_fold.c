@@ -567,7 +567,7 @@ static void TakePieces(Host* host)
     }
 }
 
-/* A twin that was saved and loaded, or restored, and then writes its whole surface anew, goes on in the same way. */
+/* A twin that was saved and loaded, or restored, and then writes its whole surface again, goes on in the same way. */
 static void CheckTwin(Host* host, bool isSnapshot)
 {
     START_HOST(twin);

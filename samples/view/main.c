@@ -53,7 +53,7 @@ static bool Keep(Viewer* viewer)
 static bool GoTo(Viewer* viewer, int32_t tick)
 {
     tick = tick < 0 ? 0 : tick > viewer->replay.ticks ? viewer->replay.ticks : tick;
-    int32_t nearest = tick > 0 ? (tick - 1) / KEEP_EVERY : 0; /* before it: a tick made anew has times */
+    int32_t nearest = tick > 0 ? (tick - 1) / KEEP_EVERY : 0; /* before it: only a tick that is played has times */
     nearest = nearest < viewer->momentCount ? nearest : viewer->momentCount - 1;
     if (tick < viewer->scene.tick || nearest * KEEP_EVERY > viewer->scene.tick) {
         const Moment* moment = &viewer->moments[nearest];
@@ -132,7 +132,7 @@ static void FillBox(Image* image, int32_t left, int32_t top, int32_t width, int3
     }
 }
 
-/* What the last tick took, stage by stage: milliseconds, and below them the items of kiriBudget. A bar across is 8 ms. */
+/* Draws milliseconds of each stage of the last tick, and below them the items of kiriBudget. A whole bar is 8 ms. */
 static void DrawBudget(const kiriWorld* world, Image* image)
 {
     enum { LEFT = 12, TOP = 12, ROW = 20, SIZE = 13, NAME = 90, BAR_WIDTH = 200, PANEL = 380 };

@@ -901,7 +901,7 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
 }
 
 /* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. Touches of an edge
-   are sorted by key, since a load builds the tree anew and then visits triangles in another order. */
+   are sorted by key, since a load builds another tree, which visits triangles in another order. */
 static double LookAtCrossing(void* context, int32_t triangle)
 {
     Search* search = context;
