@@ -197,7 +197,7 @@ static void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32_t cell
     kiriSpan span = shape->spans.data[cell];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriHash_Int32(hash, shape->weights.data[k].frame);
-        kiriHash_Double(hash, kiriCellWeight_Raw(&shape->weights.data[k]) / kiriShape_Sum(shape, span));
+        kiriHash_Double(hash, kiriCellWeight_Value(&shape->weights.data[k]));
     }
 }
 

@@ -311,11 +311,11 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
     }
     kiriCellWeight* weight = &shape->weights.data[shape->spans.data[c].first];
     WAY("shape functions: cell", *weight = kiriCellWeight_Make(weight->frame, 2.0))
-    WAY("shape functions: cell", *weight = kiriCellWeight_Make(weight->frame, -kiriCellWeight_Raw(weight)))
+    WAY("shape functions: cell", *weight = kiriCellWeight_Make(weight->frame, -kiriCellWeight_Value(weight)))
     WAY("after", weight[1].frame = weight[0].frame)
     WAY("is in two rooms", shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0])
     WAY("shape functions: ", shape->spans.data[c].first = shape->weights.count - 1)
-    WAY("its weight is", *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Raw(weight)))
+    WAY("its weight is", *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Value(weight)))
     WAY("rigidly", shape->rigid.data[0] += 1)
     WAY("distances give", *OwnReach(s) = KIRI_FAR)
     if (way-- == 0) {

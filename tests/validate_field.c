@@ -547,8 +547,8 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
             const kiriCellWeight* weight = &shape->weights.data[k];
             REQUIRE(weight->frame > last && weight->frame < sheet->frames.count,
                     "cell %d: weight of frame %d after %d", c, weight->frame, last);
-            double raw = kiriCellWeight_Raw(weight);
-            REQUIRE(raw > 0.0 && raw <= 1.0, "cell %d: weight %g of frame %d", c, raw, weight->frame);
+            double value = kiriCellWeight_Value(weight);
+            REQUIRE(value > 0.0 && value <= 1.0, "cell %d: weight %g of frame %d", c, value, weight->frame);
             last = weight->frame;
         }
     }
@@ -570,7 +570,9 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
 {
     const kiriShape* shape = &sheet->shape;
     int32_t* seen = Check_Ints(check, sheet->grid.cells.count, KIRI_NONE);
+    double* sums = kiriMemory_AllocZeroed(&check->memory, (int64_t)sizeof(double) * (sheet->grid.cells.count + 1));
     int64_t found = 0, all = 0;
+    REQUIRE(sums != NULL, "no memory");
     const kiriReaches* reaches = &shape->reaches;
     REQUIRE_COUNT(reaches->ofFrame, sheet->frames.count);
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -578,6 +580,12 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
         for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
+            sums[reach.cell] += RawWeight(sheet, i, reach);
+        }
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        Reach reach = Reaches_First(reaches, i);
+        for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
             REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);
             seen[reach.cell] = i;
             double raw = RawWeight(sheet, i, reach);
@@ -586,8 +594,8 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
             while (k < span.first + span.count && shape->weights.data[k].frame != i) {
                 ++k;
             }
-            double is = k < span.first + span.count ? kiriCellWeight_Raw(&shape->weights.data[k]) : 0.0;
-            REQUIRE(raw == is, "cell %d is %d from frame %d and %d from its border, its weight is %.17g", reach.cell,
+            double is = k < span.first + span.count ? kiriCellWeight_Value(&shape->weights.data[k]) : 0.0;
+            REQUIRE(raw / sums[reach.cell] == is, "cell %d is %d from frame %d and %d from its border, its weight is %.17g", reach.cell,
                     reach.fromSite, i, reach.fromBorder, is);
             found += raw > 0.0;
         }
@@ -609,10 +617,9 @@ static bool Check_Rigid(Check* check, const kiriSheetData* sheet)
     for (int32_t c = 0; c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
         int64_t share = (int64_t)(kiriGrid_Area(&sheet->grid, c) / square * 1099511627776.0 + 0.5);
-        double sum = kiriShape_Sum(shape, span);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             sums[shape->weights.data[k].frame] +=
-                kiriCellWeight_Raw(&shape->weights.data[k]) / sum > shape->rigidWeight ? share : 0;
+                kiriCellWeight_Value(&shape->weights.data[k]) > shape->rigidWeight ? share : 0;
         }
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {

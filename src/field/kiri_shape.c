@@ -216,10 +216,9 @@ static void AddRigid(ShapeJob* job, int32_t cell, int64_t share)
 {
     kiriShape* shape = job->shape;
     kiriSpan span = shape->spans.data[cell];
-    double sum = kiriShape_Sum(shape, span);
     KIRI_EACH_IN(k, span) {
         const kiriCellWeight* weight = &shape->weights.data[k];
-        if (kiriCellWeight_Raw(weight) / sum > shape->rigidWeight) {
+        if (kiriCellWeight_Value(weight) > shape->rigidWeight) {
             shape->rigid.data[weight->frame] += share;
         }
     }
@@ -613,6 +612,7 @@ static void ListWeights(const ShapeJob* job, int32_t cell)
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
     int32_t k = cell % KIRI_BLOCK_CELLS, owner = job->regions->field.owner.data[cell];
+    double sum = 0.0;
     work->weights.count = 0;
     for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE;
          b = reaches->heads.data[b].nextOfCells) {
@@ -629,6 +629,12 @@ static void ListWeights(const ShapeJob* job, int32_t cell)
             }
             work->weights.data[at] = weight;
         }
+    }
+    KIRI_EACH(const kiriCellWeight, weight, work->weights) {
+        sum += kiriCellWeight_Value(weight);
+    }
+    KIRI_EACH(kiriCellWeight, weight, work->weights) {
+        *weight = kiriCellWeight_Make(weight->frame, kiriCellWeight_Value(weight) / sum);
     }
 }
 

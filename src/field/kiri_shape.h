@@ -13,32 +13,32 @@ typedef struct kiriWeight {
     double value;
 } kiriWeight;
 
-/* A weight at a cell, before the weights there are divided by their sum. A double in two parts, to avoid padding. */
+/* A weight at a cell. A double in two parts, to avoid padding. */
 typedef struct kiriCellWeight {
     int32_t frame;
-    uint32_t low, high; /* see kiriCellWeight_Raw */
+    uint32_t low, high; /* see kiriCellWeight_Value */
 } kiriCellWeight;
 
-static inline kiriCellWeight kiriCellWeight_Make(int32_t frame, double raw)
+static inline kiriCellWeight kiriCellWeight_Make(int32_t frame, double value)
 {
     uint64_t bits;
-    memcpy(&bits, &raw, sizeof(bits));
+    memcpy(&bits, &value, sizeof(bits));
     return (kiriCellWeight){ frame, (uint32_t)bits, (uint32_t)(bits >> 32) };
 }
 
-static inline double kiriCellWeight_Raw(const kiriCellWeight* weight)
+static inline double kiriCellWeight_Value(const kiriCellWeight* weight)
 {
     uint64_t bits = (uint64_t)weight->high << 32 | weight->low;
-    double raw;
-    memcpy(&raw, &bits, sizeof(raw));
-    return raw;
+    double value;
+    memcpy(&value, &bits, sizeof(value));
+    return value;
 }
 
 typedef struct kiriShapeWork kiriShapeWork; /* the update in progress, see below */
 
 typedef struct kiriShape {
     KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
-    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero */
+    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero, sum 1 */
     kiriSpans room;
     kiriReaches reaches; /* of each frame: distances of the cells that its weight may reach */
 
@@ -53,16 +53,6 @@ typedef struct kiriShape {
     int64_t recomputed; /* how many of them have other weights */
     kiriShapeWork* work;
 } kiriShape;
-
-/* Adds the raw weights of a cell. Divided by this sum they are its weights. */
-static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
-{
-    double sum = 0.0;
-    KIRI_EACH_IN(k, span) {
-        sum += kiriCellWeight_Raw(&shape->weights.data[k]);
-    }
-    return sum;
-}
 
 /* Updates distances and weights after changes of grid and regions; the caller clears those changes afterwards. `moves`
    as in kiriRegions_Update: distances to a moved site are recomputed. Every cell with an owner gets weights. KIRI_MORE:

@@ -214,11 +214,12 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 {
     static const uint8_t sorted[] = { 4, 0, 5, 1, 2, 6, 3, 7 }; /* plain steps, by square */
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
-    bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
-    KIRI_TIMES_WHILE(plain, k, steps.end[1]) {
+    bool open = kiriGrid_IsOpen(grid, cell), plain = open || (steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square]);
+    KIRI_TIMES_WHILE(plain && !open, k, steps.end[1]) {
         plain = grid->whole.data[grid->cells.data[kiriSteps_At(&steps, k).cell].square];
     }
     int32_t end = steps.end[plain ? 1 : 0];
+    stencil->full = plain;
     stencil->steps.count = 0;
     if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end + 1)) {
         return false;
@@ -254,13 +255,13 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
         return false;
     }
     stencil->split = false;
-    KIRI_TIMES(k, count) {
+    KIRI_TIMES_WHILE(!stencil->full, k, count) {
         kiriStep to = stencil->steps.data[k];
         int32_t square = 1 << (3 * (to.v + 1) + to.u + 1);
         stencil->split = stencil->split || (seen & square) != 0;
         seen |= square;
     }
-    stencil->full = count == 9 && seen == 511;
+    stencil->full = stencil->full || (count == 9 && seen == 511);
     KIRI_TIMES_WHILE(stencil->split, k, count) {
         kiriMoments material = kiriGrid_Material(grid, stencil->steps.data[k].cell);
         stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&material));
@@ -271,16 +272,13 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
 /* Gathers the frames with weight in any of the cells, sorted; `columns` says where each frame is. */
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
-    if (!kiriArray_Reserve(memory, &stencil->columns, shape->rigid.count)) {
+    if (!kiriArrays_Reserve(memory, shape->rigid.count, &stencil->columns, &stencil->frames)) {
         return false;
     }
     kiriArray_Extend(&stencil->columns, shape->rigid.count, 0);
     stencil->frames.count = 0;
     KIRI_EACH(const kiriStep, step, stencil->steps) {
         kiriSpan span = shape->spans.data[step->cell];
-        if (!kiriArray_ReserveMore(memory, &stencil->frames, span.count)) {
-            return false;
-        }
         KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             int32_t at = stencil->frames.count;
@@ -311,10 +309,10 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
     memset(stencil->weights.data, 0, sizeof(double) * (size_t)stencil->weights.count);
     KIRI_EACH_INDEX(k, stencil->steps) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
-        double *weights = stencil->weights.data + (size_t)k * (size_t)count, sum = kiriShape_Sum(shape, span);
+        double* weights = stencil->weights.data + (size_t)k * (size_t)count;
         KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
-            weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Raw(&shape->weights.data[w]) / sum;
+            weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Value(&shape->weights.data[w]);
         }
     }
     return true;

@@ -590,13 +590,12 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     KIRI_EACH(const int32_t, at, placing->placer.cells) {
         int32_t cell = *at, owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
-        double sum = kiriShape_Sum(&sheet->shape, span);
         isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
         last = owner;
         placing->allowed.data[cell] = isLarge;
         KIRI_EACH_IN(k, span) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
-            placing->allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
+            placing->allowed.data[cell] |= kiriCellWeight_Value(weight) > sheet->shape.rigidWeight &&
                                              FrameRigidity(sheet, weight->frame) > 1.0;
         }
     }
