@@ -148,6 +148,21 @@ typedef enum kiriProgress {
     KIRI_FAILED, /* out of memory; the work documents where it resumes */
 } kiriProgress;
 
+/* Returns the index of the lowest bit that is set. */
+static inline int32_t kiriLowestBit(uint32_t bits)
+{
+    KIRI_ASSERT(bits != 0);
+#if defined(__GNUC__)
+    return __builtin_ctz(bits);
+#else
+    int32_t k = 0;
+    while ((bits >> k & 1) == 0) {
+        ++k;
+    }
+    return k;
+#endif
+}
+
 /* Relaxed atomic store. Concurrent readers may all store the same value. */
 static inline void kiriWord_Leave(const int32_t* word, int32_t value)
 {

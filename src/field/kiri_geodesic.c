@@ -80,11 +80,22 @@ static inline int32_t HitsAt(const kiriField* field, const kiriGrid* grid, int32
     return (int32_t)hits;
 }
 
-/* Walks over the steps that `hits` names, and shifts it: a negative number keeps all its bits. */
+/* Goes on to the next step that `hits` names, and shifts it. A negative number names all. */
+static inline bool NextHit(kiriStepWalk* walk, int32_t* hits)
+{
+    if (*hits >= 0) {
+        if (*hits == 0) {
+            return false;
+        }
+        int32_t skipped = kiriLowestBit((uint32_t)*hits);
+        walk->next += skipped;
+        *hits >>= skipped + 1;
+    }
+    return kiriStepWalk_Next(walk);
+}
+
 #define EACH_HIT(step, grid, cell, hits)                                                                               \
-    for (kiriStepWalk step = kiriGrid_Walk(grid, cell, KIRI_KNIGHT); (hits) != 0 && kiriStepWalk_Next(&step);          \
-         (hits) >>= 1)                                                                                                 \
-        if (((hits) & 1) != 0)
+    for (kiriStepWalk step = kiriGrid_Walk(grid, cell, KIRI_KNIGHT); NextHit(&step, &(hits));)
 
 /* ---- The sweep: Dijkstra in buckets ------------------------------------------------------------------------------ */
 
