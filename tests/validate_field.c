@@ -547,9 +547,8 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
             const kiriCellWeight* weight = &shape->weights.data[k];
             REQUIRE(weight->frame > last && weight->frame < sheet->frames.count,
                     "cell %d: weight of frame %d after %d", c, weight->frame, last);
-            double value = kiriCellWeight_Value(weight);
-            REQUIRE(value > 0.0 && value <= 1.0, "cell %d: weight %g of frame %d", c, value, weight->frame);
             last = weight->frame;
+            REQUIRE(kiriCellWeight_Value(weight) > 0.0 && kiriCellWeight_Value(weight) <= 1.0, "cell %d: weight", c);
         }
     }
     return Rooms_End(check, &rooms);
@@ -572,23 +571,22 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
     int32_t* seen = Check_Ints(check, sheet->grid.cells.count, KIRI_NONE);
     double* sums = kiriMemory_AllocZeroed(&check->memory, (int64_t)sizeof(double) * (sheet->grid.cells.count + 1));
     int64_t found = 0, all = 0;
-    REQUIRE(sums != NULL, "no memory");
     const kiriReaches* reaches = &shape->reaches;
+    REQUIRE(sums != NULL, "no memory");
     REQUIRE_COUNT(reaches->ofFrame, sheet->frames.count);
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    for (int32_t n = 0; n < 2 * sheet->frames.count; ++n) { /* first sums, then weights */
+        int32_t i = n % sheet->frames.count;
         Reach reach = Reaches_First(reaches, i);
         for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
-            sums[reach.cell] += RawWeight(sheet, i, reach);
-        }
-    }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        Reach reach = Reaches_First(reaches, i);
-        for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
+            double raw = RawWeight(sheet, i, reach);
+            if (n == i) {
+                sums[reach.cell] += raw;
+                continue;
+            }
             REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);
             seen[reach.cell] = i;
-            double raw = RawWeight(sheet, i, reach);
             kiriSpan span = shape->spans.data[reach.cell];
             int32_t k = span.first;
             while (k < span.first + span.count && shape->weights.data[k].frame != i) {
