@@ -317,7 +317,7 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
     WAY("shape functions: ", shape->spans.data[c].first = shape->weights.count - 1)
     WAY("its weight is", *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Value(weight)))
     WAY("rigidly", shape->rigid.data[0] += 1)
-    WAY("distances give", *OwnReach(s) = KIRI_FAR)
+    WAY("its weight is", *OwnReach(s) = KIRI_FAR)
     if (way-- == 0) {
         return AddBlockTwice(s) ? "twice" : NULL;
     }
