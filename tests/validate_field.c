@@ -582,11 +582,11 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
                     "frame %d reaches cell %d", i, reach.cell);
             double raw = RawWeight(sheet, i, reach);
             if (n == i) {
+                REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);
+                seen[reach.cell] = i;
                 sums[reach.cell] += raw;
                 continue;
             }
-            REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);
-            seen[reach.cell] = i;
             kiriSpan span = shape->spans.data[reach.cell];
             int32_t k = span.first;
             while (k < span.first + span.count && shape->weights.data[k].frame != i) {
