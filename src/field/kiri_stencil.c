@@ -214,8 +214,8 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 {
     static const uint8_t sorted[] = { 4, 0, 5, 1, 2, 6, 3, 7 }; /* plain steps, by square */
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
-    bool open = kiriGrid_IsOpen(grid, cell), plain = open || (steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square]);
-    KIRI_TIMES_WHILE(plain && !open, k, steps.end[1]) {
+    bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
+    KIRI_TIMES_WHILE(plain, k, steps.end[1]) {
         plain = grid->whole.data[grid->cells.data[kiriSteps_At(&steps, k).cell].square];
     }
     int32_t end = steps.end[plain ? 1 : 0];
