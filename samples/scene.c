@@ -14,7 +14,8 @@ static const SceneType* const types[] = {
     &bunnyScene,  &spiralScene,     &kirigamiScene, &patchworkScene,
     &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
     &miuraScene,  &cardScene,       &craneScene,    &shirtScene,
-    &lanternScene, &patchScene,      &letterScene,   &stampsScene,
+    &lanternScene, &patchScene,     &bagScene,      &letterScene,
+    &stampsScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)
@@ -164,14 +165,21 @@ kiriResult Scene_Tick(Scene* scene)
             return result;
         }
     }
-    if (scene->type->push != NULL) {
-        scene->type->push(scene);
+    int32_t parts = scene->type->parts > 0 ? scene->type->parts : 1;
+    kiriResult result = KIRI_OK;
+    for (int32_t i = 0; i < parts && result >= 0; i++) {
+        if (scene->type->push != NULL) {
+            scene->type->push(scene);
+        }
+        if (i == 0) {
+            scene->tick++;
+            if (scene->isRecorded) {
+                Scene_NoteTick(scene);
+            }
+        }
+        result = kiriWorld_Tick(scene->world, 1.0f / (60.0f * (float)parts), scene->type->substeps);
     }
-    scene->tick++;
-    if (scene->isRecorded) {
-        Scene_NoteTick(scene);
-    }
-    return kiriWorld_Tick(scene->world, 1.0f / 60.0f, scene->type->substeps);
+    return result;
 }
 
 int32_t Scene_GetBlades(const Scene* scene, float (*restPoints)[2], int32_t capacity)

@@ -52,18 +52,20 @@ typedef struct SceneType {
     const char* about;
     float size; /* m: of the sheet's height, and of the picture */
     int32_t ticks, substeps;
+    int32_t parts;                  /* ticks of the world in each of the scene; 0: 1 */
     int32_t firstCut, lastCut;      /* ticks from the first move of a blade to the last */
     bool together;                  /* all blades at once; else one after the other */
     int32_t moments[SCENE_MOMENTS]; /* ticks worth a picture, rising */
     Camera camera;
     Look look, secondLook; /* secondLook: of Scene.second */
+    float bodies[3];       /* colour of bodies; black: as wood */
     void (*print)(uint8_t* rgb); /* fills PRINT_SIZE x PRINT_SIZE pixels in place of each check of the sheet; or null */
     bool pegs; /* pins are pegs in a wall behind the sheet; else knots of threads from above */
     bool (*start)(Scene* scene, const SceneOptions* options); /* makes the sheet, its pins, and the strokes */
     void (*push)(Scene* scene);                               /* forces and contacts of a tick; may be null */
 } SceneType;
 
-enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16, SCENE_MAX_BODIES = 16, SCENE_NOTE_SIZE = 4096 };
+enum { SCENE_MAX_STROKES = 64, SCENE_MAX_PINS = 16, SCENE_MAX_BODIES = 64, SCENE_NOTE_SIZE = 4096 };
 
 struct Scene {
     const SceneType* type; /* with an own pace: `paced` */

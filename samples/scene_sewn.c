@@ -327,3 +327,118 @@ const SceneType patchScene = {
     .start = StartPatch,
     .push = PushPatch,
 };
+
+/* ---- Bag: two panels are sewn on three sides, and fifty balls fall in -------------------------------------------- */
+
+/* A ball lies on balls below, whose load a tick of the world brings to the cloth with a delay: so ticks are short. */
+enum { BALLS = 50, BALL_EVERY = 4, BAG_PARTS = 4, ROUNDS = 20 };
+
+static const float ballRadius = 0.02f, ballMass = 0.01f; /* m, kg */
+
+static bool AddBagPanel(Scene* scene, const SceneOptions* options, float side, kiriSheet* panel)
+{
+    const float round = 0.307f, mouth = 0.217f; /* the mouth is held round, at its eighths */
+    kiriSheetDef def = Scene_PlaceSheet(scene, (float[]){ -0.5f, side * mouth, 0.1f }, (float[]){ 0.0f, 0.0f, 1.0f },
+                                        Preset(KIRI_MATERIAL_COTTON));
+    def.frameCount = 25;
+    def.skinning = KIRI_SKINNING_SMOOTH;
+    bool fine = Scene_MakeRectangle(scene, &def, options, &(Rectangle){ 1.0f, 1.0f, 30, 30, NULL }) &&
+                Scene_PinAt(scene, 0.25f, 1.0f, -mouth, side * mouth, 1.1f) &&
+                Scene_PinAt(scene, 0.5f, 1.0f, 0.0f, side * round, 1.1f) &&
+                Scene_PinAt(scene, 0.75f, 1.0f, mouth, side * mouth, 1.1f);
+    *panel = scene->sheet;
+    return fine;
+}
+
+static bool StartBag(Scene* scene, const SceneOptions* options)
+{
+    const float sides[4][2] = { { 0.0f, 1.0f }, { 0.0f, 0.0f }, { 1.0f, 0.0f }, { 1.0f, 1.0f } };
+    kiriSheet front = 0, back = 0;
+    bool fine = AddBagPanel(scene, options, -1.0f, &front) && AddBagPanel(scene, options, 1.0f, &back) &&
+                Sew(scene, front, back, sides[0], sides[0], 4, 0.0f, 0.0f, 0.0f);
+    scene->sheet = front;
+    scene->second = back;
+    return fine;
+}
+
+static void DropBall(Scene* scene)
+{
+    int32_t n = scene->bodyCount;
+    kiriObstacleDef* def = &scene->bodies[n];
+    kiriDefaultObstacleDef(def);
+    def->type = KIRI_OBSTACLE_SPHERE;
+    def->radius = ballRadius;
+    def->mass = ballMass;
+    def->position[0] = 0.015f * (float)(7 * n % 5 - 2);
+    def->position[1] = 0.01f * (float)(3 * n % 3 - 1);
+    def->position[2] = scene->type->size * 1.1f + 0.09f;
+    if (kiriCreateObstacle(scene->world, def, &scene->bodyIds[n]) == KIRI_OK) {
+        scene->bodyCount++;
+    }
+}
+
+/* Changes velocities so that in dt no two balls come nearer than their surfaces; those that are nearer part slowly. */
+static void PartBalls(float (*at)[3], float (*velocity)[3], int32_t count, float dt)
+{
+    for (int32_t pair = 0; pair < count * count; pair++) {
+        int32_t i = pair / count, j = pair % count;
+        float way[3], square = 0.0f, speed = 0.0f;
+        for (int k = 0; k < 3; k++) {
+            way[k] = at[i][k] - at[j][k];
+            square += way[k] * way[k];
+        }
+        if (j >= i || square > 9.0f * ballRadius * ballRadius || square < 1e-12f) {
+            continue;
+        }
+        float length = sqrtf(square), gap = length - 2.0f * ballRadius;
+        float least = gap > 0.0f ? -gap / dt : fminf(-0.2f * gap / dt, 0.5f);
+        for (int k = 0; k < 3; k++) {
+            speed += way[k] / length * (velocity[i][k] - velocity[j][k]);
+        }
+        float push = 0.5f * fmaxf(least - speed, 0.0f) / length;
+        for (int k = 0; k < 3; k++) {
+            velocity[i][k] += push * way[k];
+            velocity[j][k] -= push * way[k];
+        }
+    }
+}
+
+/* The host moves the balls: by their weight, by what the bag did to them, and by what they do to each other. */
+static void FillBag(Scene* scene)
+{
+    const float dt = 1.0f / (60.0f * BAG_PARTS);
+    float at[BALLS][3], velocity[BALLS][3];
+    if (scene->bodyCount < BALLS && scene->tick == BALL_EVERY * scene->bodyCount) {
+        DropBall(scene);
+    }
+    for (int32_t i = 0; i < scene->bodyCount; i++) {
+        kiriObstacleState state;
+        kiriObstacle_GetState(scene->world, scene->bodyIds[i], &state);
+        for (int k = 0; k < 3; k++) {
+            at[i][k] = state.position[k];
+            velocity[i][k] = state.velocity[k] + (float)state.impulse[k] / ballMass - (k == 2 ? 9.81f * dt : 0.0f);
+        }
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        PartBalls(at, velocity, scene->bodyCount, dt);
+    }
+    for (int32_t i = 0; i < scene->bodyCount; i++) {
+        kiriObstacle_SetVelocity(scene->world, scene->bodyIds[i], velocity[i], (float[]){ 0.0f, 0.0f, 0.0f });
+    }
+}
+
+const SceneType bagScene = {
+    .name = "bag",
+    .about = "two panels are sewn to a bag, and fifty balls fall in",
+    .size = 0.3f,
+    .ticks = 270,
+    .substeps = 2,
+    .parts = BAG_PARTS,
+    .moments = { 2, 24, 64, 120, 196, 270 },
+    .camera = { { 0.55f, -1.9f, 2.9f }, { 0.0f, 0.0f, 0.78f }, 30.0f },
+    .look = { { 0.36f, 0.58f, 0.55f }, { 0.30f, 0.50f, 0.47f }, { 0.15f, 0.3f, 0.28f }, 0.0f },
+    .secondLook = { { 0.36f, 0.58f, 0.55f }, { 0.30f, 0.50f, 0.47f }, { 0.15f, 0.3f, 0.28f }, 0.0f },
+    .bodies = { 0.95f, 0.55f, 0.12f },
+    .start = StartBag,
+    .push = FillBag,
+};

@@ -77,11 +77,13 @@ static bool TakeSolid(View* view, const Scene* scene, float thickness)
 
 static int32_t TakeBodies(const Scene* scene, CanvasBody bodies[SCENE_MAX_BODIES])
 {
-    const Color wood = { 0.80f, 0.70f, 0.58f, 1.0f };
+    const float* given = scene->type->bodies;
+    const Color wood = { 0.80f, 0.70f, 0.58f, 1.0f }, own = { given[0], given[1], given[2], 1.0f };
     for (int32_t i = 0; i < scene->bodyCount; i++) {
         const kiriObstacleDef* def = &scene->bodies[i];
         kiriObstacleState state;
-        bodies[i] = (CanvasBody){ .shape = def->type, .radius = def->radius, .height = def->height, .color = wood };
+        bodies[i] = (CanvasBody){ .shape = def->type, .radius = def->radius, .height = def->height,
+                                  .color = given[0] + given[1] + given[2] > 0.0f ? own : wood };
         kiriObstacle_GetState(scene->world, scene->bodyIds[i], &state);
         memcpy(bodies[i].size, def->size, sizeof bodies[i].size);
         memcpy(bodies[i].position, state.position, sizeof bodies[i].position);

@@ -425,11 +425,11 @@ FIGURE(FoldScenes)
     }
 }
 
-/* Lips of sewn scenes stay together. The shirt hangs on the shoulders. */
+/* Lips of sewn scenes stay together. The shirt hangs on the shoulders, and the bag keeps its balls. */
 FIGURE(SewnScenes)
 {
-    static const char* const names[] = { "shirt", "lantern", "patch" };
-    for (int i = 0; i < 3; i++) {
+    static const char* const names[] = { "shirt", "lantern", "patch", "bag" };
+    for (int i = 0; i < 4; i++) {
         SCOPED(Scene, scene, Scene_Stop);
         kiriSeam seams[8];
         kiriStitch stitch;
@@ -444,6 +444,12 @@ FIGURE(SewnScenes)
                 assert_true(i > 0 || stitch.position[2] > 0.7f);
             }
         }
+        for (int32_t k = 0; i == 3 && k < scene.bodyCount; k++) {
+            kiriObstacleState ball;
+            kiriObstacle_GetState(scene.world, scene.bodyIds[k], &ball);
+            assert_true(ball.position[2] > 0.03f && ball.position[2] < 0.33f);
+        }
+        assert_true(i < 3 || scene.bodyCount == 50);
         print_message("%s: %d stitches, %.2g m apart\n", names[i], (int)stitches, (double)worst);
         assert_true(stitches > 10 && worst < 1e-3f);
     }

@@ -1,5 +1,6 @@
 #include "picture.h"
 
+#undef kiriCreateObstacle
 #undef kiriWorld_Tick
 #undef kiriDestroyWorld
 
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_TICKS = 4, MOST_SHEETS = 16, MOST_PINS = 64, GAP = 4 };
+enum { MOST_TICKS = 4, MOST_SHEETS = 16, MOST_PINS = 64, MOST_BODIES = 64, GAP = 4 };
 
 typedef struct Album {
     char path[512];
@@ -20,6 +21,9 @@ typedef struct Album {
     int tick, taken;
     Painter* painter;
     Image all, one;
+    CanvasBody bodies[MOST_BODIES];
+    kiriObstacle obstacles[MOST_BODIES];
+    int32_t bodyCount;
 } Album;
 
 static Album album;
@@ -37,11 +41,8 @@ static void ReadFlags(const char* words)
     static const struct {
         const char* name;
         uint32_t flag;
-    } flags[] = { { "obstacles", KIRI_DRAW_OBSTACLES },
-                  { "blades", KIRI_DRAW_BLADES },
-                  { "frames", KIRI_DRAW_FRAMES },
-                  { "links", KIRI_DRAW_LINKS } };
-    for (int i = 0; i < 4; i++) {
+    } flags[] = { { "blades", KIRI_DRAW_BLADES }, { "frames", KIRI_DRAW_FRAMES }, { "links", KIRI_DRAW_LINKS } };
+    for (int i = 0; i < 3; i++) {
         album.flags |= strstr(words, flags[i].name) != NULL ? flags[i].flag : 0;
     }
 }
@@ -144,6 +145,20 @@ static void AddPins(View* view, const kiriWorld* world, kiriSheet sheet)
     view->pins = targets[0];
 }
 
+static void AddBodies(View* view, const kiriWorld* world)
+{
+    for (int32_t i = 0; i < album.bodyCount; i++) {
+        CanvasBody* body = &album.bodies[i];
+        kiriObstacleState state;
+        kiriObstacle_GetState(world, album.obstacles[i], &state);
+        memcpy(body->position, state.position, sizeof body->position);
+        memcpy(body->rotation, state.rotation, sizeof body->rotation);
+        body->position[2] -= album.floor;
+    }
+    view->bodies = album.bodies;
+    view->bodyCount = album.bodyCount;
+}
+
 static void AddLines(View* view, const kiriWorld* world)
 {
     static Lines lines;
@@ -174,6 +189,7 @@ static void TakePicture(kiriWorld* world)
         AddMesh(&view.mesh, &mesh, i);
         AddPins(&view, world, sheets[i]);
     }
+    AddBodies(&view, world);
     AddLines(&view, world);
     if (!Painter_Paint(album.painter, &view, &album.one)) {
         Stop("no memory");
@@ -182,6 +198,21 @@ static void TakePicture(kiriWorld* world)
 }
 
 /* ---- In place of the library's calls ----------------------------------------------------------------------------- */
+
+kiriResult Picture_CreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle)
+{
+    kiriResult result = kiriCreateObstacle(world, def, obstacle);
+    if (result == KIRI_OK && def->type != KIRI_OBSTACLE_PLANE && album.bodyCount < MOST_BODIES) {
+        CanvasBody body = { .shape = def->type,
+                            .radius = def->radius,
+                            .height = def->height,
+                            .color = { 0.80f, 0.70f, 0.58f, 1.0f } };
+        memcpy(body.size, def->size, sizeof body.size);
+        album.obstacles[album.bodyCount] = *obstacle;
+        album.bodies[album.bodyCount++] = body;
+    }
+    return result;
+}
 
 kiriResult Picture_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
