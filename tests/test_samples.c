@@ -84,24 +84,6 @@ TEST(Table)
     }
 }
 
-/* The scenes' own frames: more, so that what is seen is not strained, in the same pieces. */
-FIGURE(OwnFrames)
-{
-    static const int rows[] = { SPIRAL, VORTEX, FALLING_GUY };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const Row* row = &table[rows[i]];
-        SCOPED(Scene, scene, Scene_Stop);
-        kiriCounts counts;
-        Start(&scene, row->name);
-        while (scene.tick < scene.type->lastCut + 30) {
-            assert_true(TickScene(&scene) >= 0);
-        }
-        kiriSheet_GetCounts(scene.world, scene.sheet, &counts);
-        assert_in_range(counts.frames, 3 * row->lastFrames, 200);
-        assert_int_equal(counts.pieces, row->pieces);
-    }
-}
-
 /* Strokes fill the time of cutting without a gap, and all blades are about as fast. */
 static void CheckTimes(const Scene* scene)
 {
