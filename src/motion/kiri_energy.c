@@ -299,6 +299,7 @@ typedef struct LinkStrains {
     kiriVec2 bending; /* K s */
     kiriVec2 strain;  /* strain times s, m */
     double turn;      /* in the plane, rad */
+    double gap;       /* along the mean director, m */
 } LinkStrains;
 
 /* Bending and twist are along and across the edge of the material, see kiri_strain.h. */
@@ -307,7 +308,7 @@ static LinkStrains TakeStrains(const kiriLink* link, const double* strain)
     LinkStrains strains = { kiriLink_FromEdge(link, kiriVec2_Make(strain[KIRI_BENDING], strain[KIRI_TWIST])),
                             kiriVec2_AddScaled(kiriVec2_Scale(strain[KIRI_STRETCH], link->normal), strain[KIRI_SHEAR],
                                                link->tangent),
-                            strain[KIRI_PLANE_BENDING] };
+                            strain[KIRI_PLANE_BENDING], strain[KIRI_NORMAL_GAP] };
     return strains;
 }
 
@@ -407,7 +408,10 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
     double missing = 0.0, held = 0.0;
     KIRI_TIMES(k, linkCount) {
         LinkStrains strains = StrainsOfLink(&links[k], material, frames);
-        missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
+        double stiffness[KIRI_STRAINS];
+        kiriStrain_Stiffness(&links[k], material, stiffness);
+        missing += kiriMax(MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity),
+                           stiffness[KIRI_NORMAL_GAP] * strains.gap * strains.gap); /* a smooth sheet has no gaps */
         held += EnergyOf(&links[k], &strains, rigidity);
     }
     KIRI_TIMES(k, clampCount) {
@@ -418,7 +422,7 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
         LinkStrains off = {
             { strains.bending.x - K->uu * s.x - K->uv * s.y, strains.bending.y - K->uv * s.x - K->vv * s.y },
             { strains.strain.x - E->uu * s.x - E->uv * s.y, strains.strain.y - E->uv * s.x - E->vv * s.y },
-            strains.turn - kiriVec2_Dot(fits[clamps[k].frame].turn, s)
+            strains.turn - kiriVec2_Dot(fits[clamps[k].frame].turn, s), 0.0
         };
         missing += EnergyOf(&clamps[k].link, &off, rigidity) / 3.0;
         held += EnergyOf(&clamps[k].link, &strains, rigidity);

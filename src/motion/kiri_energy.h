@@ -10,9 +10,10 @@ KIRI_C_BEGIN
    on each link and jumps between links. A smoother field is recovered from them (Zienkiewicz and Zhu 1987): each region
    has the curvatures and strains that fit its links and clamps best, and between two regions, and from a region to a
    clamped line, they vary linearly. The energy of the difference of the two fields, divided by the energy of both, is
-   the relative error of the energy. Under steady loads it is also the relative error of their work, and so of the
-   displacement. It falls with the square of the spacing, as the error does. *relative: 0 for a flat sheet, 1 if no two
-   links meet, else at most 1. Fails on out of memory. */
+   the relative error of the energy. A smooth sheet has no normal gaps: the energy of a gap counts where it is larger.
+   Under steady loads this is also the relative error of the work, and so of the displacement. It falls with the square
+   of the spacing, as the error does. *relative: 0 for a flat sheet, 1 if no two links meet, else at most 1. Fails on out
+   of memory. */
 bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
                         int32_t linkCount, const kiriClampRow* clamps, int32_t clampCount,
                         const kiriMaterial* material, double* relative);
