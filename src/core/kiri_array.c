@@ -316,6 +316,21 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
     return kiriArray_Reserve(memory, &keep->to, items);
 }
 
+void kiriKeep_Fill(kiriKeep* keep, const int32_t* parts, int32_t items)
+{
+    KIRI_ASSERT(items >= 0 && items <= keep->to.capacity);
+    int32_t *to = keep->to.data, kept = 0;
+    for (keep->first = 0; keep->first < items && parts[keep->first] == KIRI_NONE;) {
+        ++keep->first;
+    }
+    KIRI_TIMES(i, items) {
+        to[i] = parts[i] == KIRI_NONE ? kept : KIRI_NONE;
+        kept += parts[i] == KIRI_NONE;
+    }
+    keep->to.count = items;
+    keep->count = kept;
+}
+
 void kiriKeep_Clear(kiriKeep* keep, int32_t items)
 {
     KIRI_ASSERT(items >= 0 && items <= keep->to.capacity);

@@ -223,6 +223,9 @@ static inline void kiriKeep_Add(kiriKeep* keep, bool isKept)
     KIRI_NEXT(keep->to) = isKept ? keep->count++ : KIRI_NONE;
 }
 
+/* Makes a map that keeps the items whose part is KIRI_NONE. Capacity is reserved. */
+void kiriKeep_Fill(kiriKeep* keep, const int32_t* parts, int32_t items);
+
 /* Makes a map of `items` that keeps none. Capacity is reserved. */
 void kiriKeep_Clear(kiriKeep* keep, int32_t items);
 

@@ -527,8 +527,8 @@ bool kiriMesh_FlipKeepsCells(const kiriMeshData* mesh, int32_t h)
 /* Half-edges keep their place in their triangle. */
 static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
 {
-    int32_t triangle = h == KIRI_NONE ? KIRI_NONE : kiriKeep_To(triangles, h / 3);
-    return triangle == KIRI_NONE ? KIRI_NONE : 3 * triangle + h % 3;
+    int32_t t = h == KIRI_NONE ? KIRI_NONE : (int32_t)((uint32_t)h / 3), to = kiriKeep_To(triangles, t);
+    return to == KIRI_NONE ? KIRI_NONE : h + 3 * (to - t);
 }
 
 /* Renumbers a kept triangle. An open edge whose other side is removed becomes part of the outline. The parent is used
@@ -641,18 +641,20 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
     int32_t originals = 0;
     KIRI_EACH_INDEX(t, mesh->triangles) {
         if (kiriKeep_Has(triangles, t)) {
-            RenumberTriangle(&mesh->triangles.data[t], triangles, vertices);
+            kiriTriangle triangle = mesh->triangles.data[t];
+            RenumberTriangle(&triangle, triangles, vertices);
+            mesh->triangles.data[kiriKeep_To(triangles, t)] = triangle;
             originals += t < mesh->originals;
         }
     }
     mesh->originals = originals;
+    mesh->triangles.count = triangles->count;
     KIRI_EACH(kiriVertex, vertex, mesh->vertices) {
         vertex->edge = EdgeTo(triangles, vertex->edge);
     }
     kiriKeep_Relink(vertices, mesh->squares.vertexHead, mesh->squares.columns * mesh->squares.rows,
                     &mesh->vertices.data[0].next, sizeof(kiriVertex));
     kiriSquares_Keep(&mesh->squares, triangles, squares, squareCount);
-    kiriKeep_Compact(triangles, &mesh->triangles, 1, sizeof(kiriTriangle));
     kiriKeep_Compact(vertices, &mesh->vertices, 1, sizeof(kiriVertex));
     mesh->births.count = 0;
     mesh->oldTriangleCount = mesh->triangles.count;

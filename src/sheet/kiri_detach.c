@@ -160,9 +160,9 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
              (mapOfPart == NULL || kiriKeep_Init(mapOfPart, memory, count));
         KIRI_TIMES_WHILE(ok, i, count) {
             parts.data[i] = PartOf(detach, k, i);
-            if (mapOfRest != NULL) {
-                kiriKeep_Add(mapOfRest, parts.data[i] == KIRI_NONE);
-            }
+        }
+        if (ok && mapOfRest != NULL) {
+            kiriKeep_Fill(mapOfRest, parts.data, count);
         }
         if (ok && mapOfPart != NULL) {
             kiriKeep_Clear(mapOfPart, count); /* it keeps nothing yet */
