@@ -363,9 +363,13 @@ void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
 static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned char* from, int32_t first,
                      size_t itemBytes)
 {
+    enum { AHEAD = 8 };
     const int32_t* map = keep->to.data;
     for (int32_t i = first, end; i < keep->to.count; i = end) {
         end = i + 1;
+        while (map[i] != KIRI_NONE && end + AHEAD < keep->to.count && map[end + AHEAD] == map[i] + end + AHEAD - i) {
+            end += AHEAD; /* kept items have consecutive indices: so all up to there are kept */
+        }
         while (end < keep->to.count && (map[end] == KIRI_NONE) == (map[i] == KIRI_NONE)) {
             ++end;
         }
