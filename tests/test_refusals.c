@@ -1,5 +1,5 @@
 /* What a refused allocation leaves behind: for each call that changes a world, with work on a cut waiting at each
-   stage, each seventh allocation is refused once, and all from there on; with the word "all" each one. */
+   stage, each eleventh allocation is refused once, and all from there on; with the word "all" each one. */
 #include "every_call.h"
 #include "look.h"
 
@@ -7,7 +7,7 @@
 
 /* Each step-th allocation of each CALLS-th call is refused. */
 enum { CALLS = IS_SANITIZED ? 4 : 1 };
-static int32_t step = IS_SANITIZED ? 13 : 7;
+static int32_t step = IS_SANITIZED ? 19 : 11;
 
 SETUP
 {
