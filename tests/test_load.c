@@ -600,12 +600,6 @@ TEST(Models)
 
 /* ---- Sleep ------------------------------------------------------------------------------------------------------- */
 
-static bool IsAwake(const Host* host, kiriSheet sheet)
-{
-    int32_t awake = World_IsAwake(host->world, sheet);
-    return awake != 0;
-}
-
 /* A sheet that sleeps says what it weighs. What may move it wakes it; what cannot does not. */
 TEST(Sleep)
 {
@@ -623,7 +617,7 @@ TEST(Sleep)
     double weight = Host_Totals(&host, sheet).mass * (double)9.81f;
     for (int k = 0; k < 6; ++k) {
         int ticks = 0;
-        for (; IsAwake(&host, sheet); ++ticks) {
+        for (; World_IsAwake(host.world, sheet); ++ticks) {
             assert_true(ticks < 2000);
             OK(Host_Tick(&host, 0.04f, 1));
         }
@@ -635,7 +629,7 @@ TEST(Sleep)
         OK(kiriSheet_ApplyPressure(host.world, sheet, 0.0f));
         OK(kiriPin_SetPose(host.world, clamp, pose.target, pose.rotation));
         OK(Host_Tick(&host, 0.04f, 1));
-        assert_false(IsAwake(&host, sheet));
+        assert_false(World_IsAwake(host.world, sheet));
         OK(kiriPin_GetReaction(host.world, clamp, later, torque));
         assert_memory_equal(force, later, sizeof(force));
         if (k == 0) {
@@ -652,7 +646,7 @@ TEST(Sleep)
         } else {
             OK(kiriSheet_HingeLine(host.world, sheet, at, pose.to, &clamp));
         }
-        assert_true(IsAwake(&host, sheet));
+        assert_true(World_IsAwake(host.world, sheet));
     }
 }
 

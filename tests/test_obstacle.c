@@ -1,5 +1,6 @@
 /* Obstacles: their shapes against sums made another way, their place in a world, and what touches them. */
 #include "sheet/kiri_obstacle.h"
+#include "view/kiri_bounds.h"
 #include "host.h"
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------------ */
@@ -194,13 +195,6 @@ static void Ticks(Host* host, int count)
     Host_Ticks(host, count, dt, 2);
 }
 
-static bool IsAwake(const Host* host, kiriSheet sheet)
-{
-    int32_t awake = -1;
-    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
-    return awake != 0;
-}
-
 #define REFUSED(result, call)                                                                                          \
     do {                                                                                                               \
         uint64_t hashBefore = Host_Hash(&host);                                                                        \
@@ -264,6 +258,26 @@ TEST(BadDefsAreRefused)
     REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(host.world, &prism, &none));
 }
 
+static double Past(const kiriVec3* p, double a, double b, double c)
+{
+    return kiriVec3_Distance(kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(a, p[0]), b, p[1]), c, p[2]), p[3]);
+}
+
+/* No other place of the triangle is nearer. Corners coincide or lie on a line in many triangles. */
+TEST(TrianglesHaveNearestPlaces)
+{
+    for (uint32_t seed = 5, n = 0; n < 50000; ++n) {
+        kiriVec3 p[4];
+        double s[3], u = RandomBetween(&seed, 0.0, 1.0), v = RandomBetween(&seed, 0.0, 1.0 - u);
+        KIRI_TIMES(k, 4) {
+            p[k] = kiriVec3_Make(Random(&seed) >> 8 & 1, Random(&seed) >> 8 & 1, Random(&seed) >> 8 & 3);
+        }
+        kiriTriangle_Nearest(p, p[3], s);
+        assert_true(Past(p, s[0], s[1], s[2]) < Past(p, 1.0 - u - v, u, v) + 1e-9);
+        assert_true(fabs(s[0] + s[1] + s[2] - 1.0) < 1e-9 && fmin(fmin(s[0], s[1]), s[2]) > -1e-9);
+    }
+}
+
 /* There it would be read as no float after a tick. Short of that it goes on, and comes back. */
 TEST(WhereFloatsEndNothingMoves)
 {
@@ -299,7 +313,7 @@ TEST(PlateRestsOnAFloor)
     kiriObstacle floor = Add(&host, &def);
     kiriSheet sheet = AddPlate(&host, 0.0f, 0.1f, 0.001f);
     int ticks = 0;
-    for (; IsAwake(&host, sheet) && ticks < 300; ++ticks) {
+    for (; World_IsAwake(host.world, sheet) && ticks < 300; ++ticks) {
         OK(Host_Tick(&host, dt, 2));
     }
     assert_in_range(ticks, 30, 120);
@@ -308,7 +322,7 @@ TEST(PlateRestsOnAFloor)
     assert_true(fabs(totals.center[2] - 0.005) < 1e-4);
     assert_true(fabs(World_ObstacleState(host.world, floor).impulse[2] / weight - 1.0) < 1e-3);
     Ticks(&host, 10);
-    assert_false(IsAwake(&host, sheet));
+    assert_false(World_IsAwake(host.world, sheet));
     assert_true(fabs(World_ObstacleState(host.world, floor).impulse[2] / weight - 1.0) < 1e-3);
     assert_true(fabs(World_ObstacleState(host.world, floor).angularImpulse[0] / weight) < 1e-3);
     assert_true(World_ObstacleState(host.world, floor).contacts >= 3);
@@ -317,10 +331,10 @@ TEST(PlateRestsOnAFloor)
 static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
 {
     kiriSheet sheet = AddPlate(host, 0.0f, 0.2051f, 0.001f);
-    for (int i = 0; i < 120 && IsAwake(host, sheet); ++i) {
+    for (int i = 0; i < 120 && World_IsAwake(host->world, sheet); ++i) {
         OK(Host_Tick(host, dt, 2));
     }
-    assert_false(IsAwake(host, sheet));
+    assert_false(World_IsAwake(host->world, sheet));
     return sheet;
 }
 
@@ -374,7 +388,7 @@ TEST(SleepersWake)
                 OK(kiriObstacle_SetSurfaceVelocity(host.world, touched, up));
             }
             OK(Host_Tick(&host, dt, 2));
-            assert_int_equal(IsAwake(&host, sheet), !isFar);
+            assert_int_equal(World_IsAwake(host.world, sheet), !isFar);
         }
     }
 }

@@ -57,13 +57,6 @@ static void AddFloor(Host* host)
     OK(kiriCreateObstacle(host->world, &def, &floor));
 }
 
-static bool IsAwake(const Host* host, kiriSheet sheet)
-{
-    int32_t awake = -1;
-    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
-    return awake == 1;
-}
-
 /* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
 TEST(WhoWasAloneIsFound)
 {
@@ -76,10 +69,10 @@ TEST(WhoWasAloneIsFound)
     kiriSheet other = AddSquare(&host, &def);
     OK(Host_Tick(&host, dt, 2)); /* both are known where they are */
     OK(kiriDestroySheet(host.world, other));
-    for (int i = 0; i < 600 && IsAwake(&host, first); ++i) {
+    for (int i = 0; i < 600 && World_IsAwake(host.world, first); ++i) {
         OK(Host_Tick(&host, dt, 2));
     }
-    assert_false(IsAwake(&host, first));
+    assert_false(World_IsAwake(host.world, first));
     def = SquareDef(0.02f, 0.0f, 0.006f);
     AddSquare(&host, &def);
     OK(Host_Tick(&host, dt, 2));
@@ -112,14 +105,14 @@ TEST(SleeperIsMet)
         if (way < 2) {
             AddPinnedSquare(&host, z, moved);
         }
-        for (int i = 0; i < 600 && IsAwake(&host, sleeper); ++i) {
+        for (int i = 0; i < 600 && World_IsAwake(host.world, sleeper); ++i) {
             OK(Host_Tick(&host, dt, 2));
         }
-        assert_false(IsAwake(&host, sleeper));
+        assert_false(World_IsAwake(host.world, sleeper));
         if (way >= 2) {
             AddPinnedSquare(&host, z, moved); /* it was alone so far */
         }
-        for (int tick = 0; tick < 60 && !IsAwake(&host, sleeper); ++tick) {
+        for (int tick = 0; tick < 60 && !World_IsAwake(host.world, sleeper); ++tick) {
             for (int k = 0; k < 4; ++k) {
                 float height = z * (1.0f - (float)tick / 30.0f);
                 float target[3] = { 0.2f * (float)(k % 2), 0.2f * (float)(k / 2), height };
@@ -134,7 +127,7 @@ TEST(SleeperIsMet)
             }
             host.failAt = -1;
         }
-        assert_true(IsAwake(&host, sleeper));
+        assert_true(World_IsAwake(host.world, sleeper));
         Host_Ticks(&host, 30, dt, 2);
     }
 }
@@ -174,7 +167,7 @@ static int CountAwake(const Host* host, const kiriSheet* sheets, int count)
 {
     int awake = 0;
     for (int i = 0; i < count; ++i) {
-        awake += IsAwake(host, sheets[i]);
+        awake += World_IsAwake(host->world, sheets[i]);
     }
     return awake;
 }

@@ -6,8 +6,7 @@ enum { HALF_SECOND = 30 };
 
 static bool IsAwake(const Host* host, kiriSheet sheet)
 {
-    int32_t awake = -1;
-    OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    int32_t awake = World_IsAwake(host->world, sheet);
     assert_true(awake == 0 || awake == 1);
     return awake == 1;
 }

@@ -537,7 +537,7 @@ void kiriTriangle_Nearest(const kiriVec3 corner[3], kiriVec3 p, double share[3])
         share[1] = 1.0;
     } else if (d[2][1] >= 0.0 && back <= 0.0) {
         share[2] = 1.0;
-    } else if (on[2] <= 0.0 && d[0][0] >= 0.0 && d[1][0] <= 0.0) {
+    } else if (on[2] <= 0.0 && d[0][0] > 0.0 && d[1][0] <= 0.0) {
         share[1] = d[0][0] / (d[0][0] - d[1][0]);
         share[0] = 1.0 - share[1];
     } else if (on[1] <= 0.0 && d[0][1] >= 0.0 && d[2][1] <= 0.0) {
