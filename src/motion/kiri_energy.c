@@ -399,8 +399,28 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
     return longer * longer * l * energy / 12.0;
 }
 
+/* Returns the work of gravity on clamped pieces since they lay flat as their first clamp holds them, J. */
+static double WorkOfGravity(kiriVec3 gravity, const kiriFrameData* frames, int32_t frameCount, const int32_t* piece,
+                            const kiriClampRow* clamps, int32_t clampCount)
+{
+    double work = 0.0;
+    KIRI_TIMES(f, frameCount) {
+        int32_t k = 0;
+        while (k < clampCount && piece[clamps[k].frame] != piece[f]) {
+            ++k;
+        }
+        if (k < clampCount) {
+            kiriVec3 arm = kiriPose_Along(&clamps[k].pose, kiriVec2_Sub(frames[f].center, clamps[k].foot));
+            kiriVec3 way = kiriVec3_Sub(kiriVec3_Sub(frames[f].x, clamps[k].pose.x), arm);
+            work += frames[f].mass * kiriVec3_Dot(gravity, way);
+        }
+    }
+    return work;
+}
+
+/* Energies here are twice the energies of the sheet. */
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
-                      const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material)
+                      const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material, double work)
 {
     double h = material->thickness, nu = material->poissonsRatio;
     double membrane = material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
@@ -427,12 +447,12 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
         missing += EnergyOf(&clamps[k].link, &off, rigidity) / 3.0;
         held += EnergyOf(&clamps[k].link, &strains, rigidity);
     }
-    return missing + held > 0.0 ? missing / (missing + held) : 0.0;
+    return missing > 0.0 ? missing / kiriMax(missing + held, 0.5 * work) : 0.0;
 }
 
 bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
                         int32_t linkCount, const kiriClampRow* clamps, int32_t clampCount,
-                        const kiriMaterial* material, double* relative)
+                        const kiriMaterial* material, const int32_t* piece, kiriVec3 gravity, double* relative)
 {
     Fit* fits = kiriMemory_AllocZeroed(memory, (int64_t)sizeof(Fit) * frameCount);
     linkCount = kiriLink_CountBorders(links, linkCount);
@@ -453,7 +473,8 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
             SolveFit(&fits[i]);
         }
     }
-    double ratio = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material);
+    double work = WorkOfGravity(gravity, frames, frameCount, piece, clamps, clampCount);
+    double ratio = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material, work);
     *relative = linkCount > 1 ? ratio : 1.0;
     kiriMemory_Free(memory, fits);
     return true;

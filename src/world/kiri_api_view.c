@@ -221,7 +221,7 @@ kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, doub
     bool ok = (shares == 0 || clamps != NULL) &&
               kiriEstimate_Error(&scratch, found->frames.data, found->frames.count, found->links.links.data,
                                  found->links.links.count, clamps, kiriPins_WriteClamps(found, clamps),
-                                 &found->settings.material, relative);
+                                 &found->settings.material, found->layout.framePiece.data, world->gravity, relative);
     kiriMemory_Free(&scratch, clamps);
     kiriCall_EndCallbacks(world);
     return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
