@@ -89,7 +89,7 @@ TEST(WhileWorkWaits)
         do {
             assert_int_equal(kiriWorld_Tick(host.world, 1e-6f, 1), KIRI_PENDING);
             assert_true(CheckWeights(&host, sheet) == 0 || Layout_Stage(host.world, Host_SheetAt(&host, 0)) == KIRI_STAGE_CUT);
-            if (ticks++ % 7 == 0) {
+            if (ticks++ % 14 == 0) {
                 CheckPins(&host, sheet);
             }
         } while (Layout_Stage(host.world, Host_SheetAt(&host, 0)) != stage);
