@@ -290,7 +290,7 @@ enum kiriMaterialPreset {
     KIRI_MATERIAL_COUNT
 };
 
-/* Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy). */
+/* Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy). */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     int32_t gridResolution, iterations; /* for the sheet def */
