@@ -526,7 +526,7 @@ type Material struct {
 	Detail int32
 }
 
-// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
+// Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 type Quality struct {
 	// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 	FramesAlong int32

@@ -713,7 +713,8 @@ namespace Kiri
         public int Detail;
     }
 
-    /// <summary>Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).</summary>
+    /// <summary>Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual,
+    /// accuracy).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Quality
     {

@@ -173,7 +173,7 @@ kiri.DRAW_ALL = 2047
 ---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
 ---@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
 
---- Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
+--- Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 ---@class kiri.Quality
 ---@field framesAlong? integer # control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 ---@field gridResolution? integer # for the sheet def

@@ -389,7 +389,7 @@ pub struct kiriMaterial {
     pub detail: i32,
 }
 
-/// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 %
+/// Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 %
 /// (manual, accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]

@@ -834,7 +834,7 @@ impl Material {
     }
 }
 
-/// Work against accuracy: strips and squares of paper are off by at most 2 %, 0.8 % and 0.4 %
+/// Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 %
 /// (manual, accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
