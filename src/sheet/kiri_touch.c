@@ -388,7 +388,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
         found.share[1] = found.share[2] = 0.0;
         found.normal = kiriVec3_Make(0.0, 0.0, 1.0);
         found.velocity = kiriVec3_Make(0.0, 0.0, 0.0);
-        found.seen = kiriTouch_Seen(sheet, &found);
+        found.on = found.seen = kiriTouch_Seen(sheet, &found);
         found.offset = found.seen.z - KIRI_FAR_BELOW;
     }
     return kiriArray_Push(sheet->memory, &sheet->touches.found, found);

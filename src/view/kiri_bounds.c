@@ -547,9 +547,9 @@ void kiriTriangle_Nearest(const kiriVec3 corner[3], kiriVec3 p, double share[3])
         share[2] = ahead / (ahead + back);
         share[1] = 1.0 - share[2];
     } else {
-        share[0] = on[0] / sum;
-        share[1] = on[1] / sum;
-        share[2] = on[2] / sum;
+        KIRI_TIMES(k, 3) {
+            share[k] = on[k] / sum;
+        }
     }
 }
 
