@@ -403,7 +403,7 @@ static void PartBalls(float (*at)[3], float (*velocity)[3], int32_t count, float
     }
 }
 
-/* The host moves the balls: by their weight, by what the bag did to them, and by what they do to each other. */
+/* Gives the balls velocities, as a host does: from their weight, the impulses of the bag and their contacts. */
 static void FillBag(Scene* scene)
 {
     const float dt = 1.0f / (60.0f * BAG_PARTS);

@@ -1,4 +1,4 @@
-/* What it costs to detach and destroy pieces, beside a plain tick of the same sheet. */
+/* The cost of detaching and destroying pieces, beside a plain tick of the same sheet. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "bench.h"

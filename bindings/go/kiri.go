@@ -1928,7 +1928,7 @@ var poolSheetEstimateError pool[struct {
 	relative C.double
 }]
 
-// Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no links.
+// Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS.
 func (s Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := s.World.check(); err != nil {

@@ -1451,7 +1451,8 @@ export class Sheet {
     getCounts(into?: Counts): Counts;
     /** Get the counts, at no cost; sum the totals over the frames. */
     getTotals(into?: Totals): Totals;
-    /** Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no links. */
+    /** Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
+     *  KIRI_MODEL_LINKS. */
     estimateError(): number;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     isAwake(): boolean;

@@ -1154,7 +1154,8 @@ function Sheet:getTotals(totals)
     return totals
 end
 
---- Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no links.
+--- Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
+--- KIRI_MODEL_LINKS.
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)

@@ -537,7 +537,7 @@ typedef struct kiriTotals {
 KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
-/* Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no links. */
+/* Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not KIRI_MODEL_LINKS. */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
 /* Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all. */

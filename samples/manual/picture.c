@@ -147,16 +147,19 @@ static void AddPins(View* view, const kiriWorld* world, kiriSheet sheet)
 
 static void AddBodies(View* view, const kiriWorld* world)
 {
+    static CanvasBody bodies[MOST_BODIES];
     for (int32_t i = 0; i < album.bodyCount; i++) {
-        CanvasBody* body = &album.bodies[i];
+        CanvasBody* body = &bodies[view->bodyCount];
         kiriObstacleState state;
-        kiriObstacle_GetState(world, album.obstacles[i], &state);
-        memcpy(body->position, state.position, sizeof body->position);
-        memcpy(body->rotation, state.rotation, sizeof body->rotation);
-        body->position[2] -= album.floor;
+        if (kiriObstacle_GetState(world, album.obstacles[i], &state) == KIRI_OK) {
+            *body = album.bodies[i];
+            memcpy(body->position, state.position, sizeof body->position);
+            memcpy(body->rotation, state.rotation, sizeof body->rotation);
+            body->position[2] -= album.floor;
+            view->bodyCount++;
+        }
     }
-    view->bodies = album.bodies;
-    view->bodyCount = album.bodyCount;
+    view->bodies = bodies;
 }
 
 static void AddLines(View* view, const kiriWorld* world)
@@ -202,7 +205,8 @@ static void TakePicture(kiriWorld* world)
 kiriResult Picture_CreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle)
 {
     kiriResult result = kiriCreateObstacle(world, def, obstacle);
-    if (result == KIRI_OK && def->type != KIRI_OBSTACLE_PLANE && album.bodyCount < MOST_BODIES) {
+    bool isDrawn = def->type != KIRI_OBSTACLE_PLANE && def->type != KIRI_OBSTACLE_PRISM;
+    if (result == KIRI_OK && isDrawn && album.bodyCount < MOST_BODIES) {
         CanvasBody body = { .shape = def->type,
                             .radius = def->radius,
                             .height = def->height,

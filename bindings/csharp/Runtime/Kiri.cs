@@ -1037,8 +1037,8 @@ namespace Kiri
             return totalsValue;
         }
 
-        /// <summary>Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no
-        /// links.</summary>
+        /// <summary>Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
+        /// KIRI_MODEL_LINKS.</summary>
         public double EstimateError()
         {
             double relativeValue = 0;

@@ -901,7 +901,8 @@ function Sheet:getCounts(counts) end
 ---@return kiri.Totals
 function Sheet:getTotals(totals) end
 
---- Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no links.
+--- Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
+--- KIRI_MODEL_LINKS.
 ---@return number
 function Sheet:estimateError() end
 

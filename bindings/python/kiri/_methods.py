@@ -271,8 +271,8 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetTotals', 'kiriTotals', self.id), self.world)
 
     def estimate_error(self) -> float:
-        """Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates. KIRI_ERROR_STATE: no
-        links.
+        """Estimates the error of a sheet that rests; 1: too few frames. It allocates. KIRI_ERROR_STATE: not
+        KIRI_MODEL_LINKS.
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)
 

@@ -1230,8 +1230,8 @@ unsafe extern "C" {
     pub fn kiriSheet_GetCounts(world: *const kiriWorld, sheet: kiriSheet, counts: *mut kiriCounts) -> kiriResult;
     /// Get the counts, at no cost; sum the totals over the frames.
     pub fn kiriSheet_GetTotals(world: *const kiriWorld, sheet: kiriSheet, totals: *mut kiriTotals) -> kiriResult;
-    /// Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates.
-    /// KIRI_ERROR_STATE: no links.
+    /// Estimates the error of a sheet that rests; 1: too few frames. It allocates.
+    /// KIRI_ERROR_STATE: not KIRI_MODEL_LINKS.
     pub fn kiriSheet_EstimateError(world: *const kiriWorld, sheet: kiriSheet, relative: *mut f64) -> kiriResult;
     /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
     /// kiriSheet_Wake wakes all.

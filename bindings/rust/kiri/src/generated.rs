@@ -2914,8 +2914,8 @@ impl Sheet {
         Ok(Totals::from_raw(&totals))
     }
 
-    /// Estimates the error at rest, mostly 1/2 to 4 times it; 1: too few frames. Allocates.
-    /// [`ResultCode::ErrorState`]: no links.
+    /// Estimates the error of a sheet that rests; 1: too few frames. It allocates.
+    /// [`ResultCode::ErrorState`]: not [`Model::Links`].
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
