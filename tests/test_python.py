@@ -485,7 +485,7 @@ def test_errors():
 
 def test_log():
     lines = []
-    world, _, _ = make_scene(log=lambda user, line: lines.append(kiri.ffi.string(line).decode()))
+    world, _, _ = make_scene(log=lines.append)
     raises(kiri.KiriError, world.tick, float("nan"))
     assert len(lines) == 1 and lines[0]
 
@@ -507,8 +507,8 @@ def test_error_has_the_line_of_its_call():
 def test_error_has_the_line_of_its_thread():
     others = []
 
-    def log(_, line):
-        if b"Raycast" in kiri.ffi.string(line):
+    def log(line):
+        if "Raycast" in line:
             others.extend(outcomes([in_thread(kiri.Frame(world, 1).state)]))
 
     world, sheet, _ = make_scene(log=log)
@@ -687,7 +687,7 @@ import atexit
 atexit.register(lambda: print("left", len(blocks.left)))
 from test_python import *
 blocks = Blocks()
-world, sheet, cut = make_scene(alloc=blocks.alloc, free=blocks.free, log=lambda user, line: None)
+world, sheet, cut = make_scene(alloc=blocks.alloc, free=blocks.free, log=lambda line: None)
 world.tick(1 / 60)
 """).stdout == "left 0\n"
 
@@ -785,7 +785,7 @@ def calls(function):
                     errors.append(error.result)
         return function(*arguments)
     return callback
-made = make_scene(alloc=calls(blocks.alloc), free=calls(blocks.free), log=calls(lambda user, line: None),
+made = make_scene(alloc=calls(blocks.alloc), free=calls(blocks.free), log=calls(lambda line: None),
                   clock=calls(lambda user: 0.0))
 world, sheet, cut = made
 world.tick(1 / 60)
@@ -794,7 +794,7 @@ raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0)
 assert sheet.counts().pieces == 2
 world.close()
 assert set(errors) == {kiri.KIRI_ERROR_STATE} and not blocks.left
-world = kiri.World(log=lambda user, line: world.close())
+world = kiri.World(log=lambda line: world.close())
 assert raises(kiri.KiriError, world.tick, -1.0).result == kiri.KIRI_ERROR_STATE
 world.tick(1 / 60)
 """).stderr

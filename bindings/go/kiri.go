@@ -95,7 +95,7 @@ type EventType int32
 const (
 	// cut: all of it is in the mesh; the id is stale from now on
 	EventCutFinished EventType = 1
-	// frame (its first, which names it), crumb, area: a connected part came off
+	// frame (its first, which names it), crumb, area: a part came off; the largest stays
 	EventPieceOff EventType = 2
 	// frame
 	EventFrameAdded EventType = 3
@@ -365,7 +365,7 @@ const (
 	DrawTriangles DrawFlag = 1
 	// a line for each edge between two triangles
 	DrawEdges DrawFlag = 2
-	// a line for each edge of the outline and of lips
+	// a line for each edge of the outline, of lips and of folds
 	DrawBorders DrawFlag = 4
 	// a point and three axes each: u red, v green, normal blue; held ones red
 	DrawFrames DrawFlag = 8

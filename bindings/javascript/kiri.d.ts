@@ -73,7 +73,7 @@ export const MOST_NOTE_BYTES: 1048576;
 export enum EventType {
     /** cut: all of it is in the mesh; the id is stale from now on */
     CutFinished = 1,
-    /** frame (its first, which names it), crumb, area: a connected part came off */
+    /** frame (its first, which names it), crumb, area: a part came off; the largest stays */
     PieceOff = 2,
     /** frame */
     FrameAdded = 3,
@@ -213,7 +213,7 @@ export enum DrawFlag {
     Triangles = 1,
     /** a line for each edge between two triangles */
     Edges = 2,
-    /** a line for each edge of the outline and of lips */
+    /** a line for each edge of the outline, of lips and of folds */
     Borders = 4,
     /** a point and three axes each: u red, v green, normal blue; held ones red */
     Frames = 8,

@@ -194,7 +194,7 @@ KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64
 /* Events since the start of the last tick that was not refused. */
 enum kiriEventType {
     KIRI_EVENT_CUT_FINISHED = 1,   /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,      /* frame (its first, which names it), crumb, area: a connected part came off */
+    KIRI_EVENT_PIECE_OFF = 2,      /* frame (its first, which names it), crumb, area: a part came off; the largest stays */
     KIRI_EVENT_FRAME_ADDED = 3,    /* frame */
     KIRI_EVENT_DIVERGED = 4,       /* the sheet was stopped */
     KIRI_EVENT_DEFERRED = 5,       /* stage, waiting: the budget ended in this stage of the sheet's work */
@@ -956,7 +956,7 @@ KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, 
 enum kiriDrawFlag {
     KIRI_DRAW_TRIANGLES = 1,   /* a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale */
     KIRI_DRAW_EDGES = 2,       /* a line for each edge between two triangles */
-    KIRI_DRAW_BORDERS = 4,     /* a line for each edge of the outline and of lips */
+    KIRI_DRAW_BORDERS = 4,     /* a line for each edge of the outline, of lips and of folds */
     KIRI_DRAW_FRAMES = 8,      /* a point and three axes each: u red, v green, normal blue; held ones red */
     KIRI_DRAW_LINKS = 16,      /* two lines each: from frame to frame by the middle of their border */
     KIRI_DRAW_PINS = 32,       /* a point at the target; a line to the point of the material, or along the line */

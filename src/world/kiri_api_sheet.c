@@ -94,7 +94,7 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
     KIRI_PREPARES(world);
     KIRI_CHECK_OUT(sheet);
     *sheet = 0;
-    KIRI_CHECK(IsRectangle(width, height, columns, rows), "a size is not above 0, or a count not within 1 and 4096");
+    KIRI_CHECK(IsRectangle(width, height, columns, rows), "width or height is not above 0, or columns or rows not within 1 and 4096");
     kiriSheetDef filled;
     kiriDefaultSheetDef(&filled);
     if (def != NULL) {

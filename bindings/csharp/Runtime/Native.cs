@@ -370,7 +370,7 @@ namespace Kiri
     {
         /// <summary>cut: all of it is in the mesh; the id is stale from now on</summary>
         CutFinished = 1,
-        /// <summary>frame (its first, which names it), crumb, area: a connected part came off</summary>
+        /// <summary>frame (its first, which names it), crumb, area: a part came off; the largest stays</summary>
         PieceOff = 2,
         /// <summary>frame</summary>
         FrameAdded = 3,
@@ -522,7 +522,7 @@ namespace Kiri
         Triangles = 1,
         /// <summary>a line for each edge between two triangles</summary>
         Edges = 2,
-        /// <summary>a line for each edge of the outline and of lips</summary>
+        /// <summary>a line for each edge of the outline, of lips and of folds</summary>
         Borders = 4,
         /// <summary>a point and three axes each: u red, v green, normal blue; held ones red</summary>
         Frames = 8,

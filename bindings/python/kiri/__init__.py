@@ -55,7 +55,8 @@ def fit_budget(profile: types.SimpleNamespace, microseconds: float, **budget: in
 
 
 class World(_core.World, _methods.World):
-    """Fields of kiriWorldDef by name, and an executor. `record` gets bytes: a file's write will do."""
+    """Fields of kiriWorldDef by name, and an executor. `log` gets a line as str: print will do. `record` gets bytes: a
+    file's write will do."""
 
     def last_error(self) -> str:
         """The line of the last call that changed the world, or ''. Exceptions have it already."""
@@ -164,9 +165,9 @@ class Sheet(Handle, _methods.Sheet):
                                            _core.vector(rest_point, 2), null=(ffi.NULL,))
         return {Frame(self.world, frame): weight for frame, weight in zip(frames, weights)}
 
-    def create_pin(self, rest_point: _core.Numbers, target: _core.Numbers, **fields: "Unpack[_fields.PinDef]") -> "Pin":
+    def create_pin(self, restPoint: _core.Numbers, target: _core.Numbers, **fields: "Unpack[_fields.PinDef]") -> "Pin":
         """Holds a point of the material at a place of the world; other fields of kiriPinDef by name."""
-        return Pin(self.world, self.world.create("Pin", self.id, restPoint=rest_point, target=target, **fields))
+        return Pin(self.world, self.world.create("Pin", self.id, restPoint=restPoint, target=target, **fields))
 
     def set_contacts(self, contacts):
         """Dicts with the fields of kiriContact."""

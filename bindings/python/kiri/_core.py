@@ -130,6 +130,11 @@ def rows(item, values, width):
     return _check_length(numbers, count * width), count
 
 
+def unknown(line, name, names):
+    near = difflib.get_close_matches(name, names, 1, 0.5)
+    return TypeError(f"{line} {name}" + (f": did you mean {near[0]}?" if near else ""))
+
+
 def fill(world, struct, values, kept):
     """Sets fields by name. What the struct only points to goes to `kept`."""
     kind = ffi.typeof(struct)
@@ -138,8 +143,7 @@ def fill(world, struct, values, kept):
     given = {}
     for name, value in values.items():
         if name not in fields:
-            near = difflib.get_close_matches(name, fields, 1, 0.5)
-            raise TypeError(f"{kind.cname} has no field {name}" + (f": did you mean {near[0]}?" if near else ""))
+            raise unknown(f"{kind.cname} has no field", name, fields)
         field = fields[name].type
         if isinstance(value, types.SimpleNamespace):  # a record, such as material() returns
             value = vars(value)
@@ -235,7 +239,7 @@ def copies(struct, names):
     record = {name: getattr(struct, name) for name, _ in kind.fields if name not in arrays}
     for name in names or arrays:
         if name not in arrays:
-            raise TypeError(f"{kind.cname} has no array {name}")
+            raise unknown(f"{kind.cname} has no array", name, arrays)
         count, width = arrays[name]
         record[name] = copy(getattr(struct, name), getattr(struct, count), width)
     return types.SimpleNamespace(**record)
@@ -324,7 +328,8 @@ class _Threads:
 
 
 class World:
-    """Fields of kiriWorldDef by name, and an executor. `record` gets bytes: a file's write will do."""
+    """Fields of kiriWorldDef by name, and an executor. `log` gets a line as str: print will do. `record` gets bytes: a
+    file's write will do."""
 
     _world = ffi.NULL
 
@@ -368,8 +373,10 @@ class World:
     def _make_log(said, forward):
         def log(user, line):
             said.line = ffi.string(line).decode()
-            if forward:
+            if isinstance(forward, ffi.CData):
                 forward(user, line)
+            elif forward:
+                forward(said.line)
         return log
 
     def close(self):

@@ -52,7 +52,7 @@ pub const KIRI_MOST_NOTE_BYTES: i32 = 1048576;
 
 /// cut: all of it is in the mesh; the id is stale from now on
 pub const KIRI_EVENT_CUT_FINISHED: i32 = 1;
-/// frame (its first, which names it), crumb, area: a connected part came off
+/// frame (its first, which names it), crumb, area: a part came off; the largest stays
 pub const KIRI_EVENT_PIECE_OFF: i32 = 2;
 /// frame
 pub const KIRI_EVENT_FRAME_ADDED: i32 = 3;
@@ -162,7 +162,7 @@ pub const KIRI_OBSTACLE_PRISM: i32 = 5;
 pub const KIRI_DRAW_TRIANGLES: i32 = 1;
 /// a line for each edge between two triangles
 pub const KIRI_DRAW_EDGES: i32 = 2;
-/// a line for each edge of the outline and of lips
+/// a line for each edge of the outline, of lips and of folds
 pub const KIRI_DRAW_BORDERS: i32 = 4;
 /// a point and three axes each: u red, v green, normal blue; held ones red
 pub const KIRI_DRAW_FRAMES: i32 = 8;

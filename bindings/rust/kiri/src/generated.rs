@@ -234,7 +234,7 @@ pub const MOST_NOTE_BYTES: i32 = 1048576;
 pub enum EventType {
     /// cut: all of it is in the mesh; the id is stale from now on
     CutFinished = 1,
-    /// frame (its first, which names it), crumb, area: a connected part came off
+    /// frame (its first, which names it), crumb, area: a part came off; the largest stays
     PieceOff = 2,
     /// frame
     FrameAdded = 3,
@@ -634,7 +634,7 @@ impl ObstacleType {
 pub const DRAW_TRIANGLES: u32 = 1;
 /// a line for each edge between two triangles
 pub const DRAW_EDGES: u32 = 2;
-/// a line for each edge of the outline and of lips
+/// a line for each edge of the outline, of lips and of folds
 pub const DRAW_BORDERS: u32 = 4;
 /// a point and three axes each: u red, v green, normal blue; held ones red
 pub const DRAW_FRAMES: u32 = 8;
@@ -2318,7 +2318,7 @@ pub enum Event {
         /// Cut.
         cut: Cut,
     },
-    /// frame (its first, which names it), crumb, area: a connected part came off
+    /// frame (its first, which names it), crumb, area: a part came off; the largest stays
     PieceOff {
         /// Sheet.
         sheet: Sheet,
