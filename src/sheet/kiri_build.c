@@ -307,6 +307,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, k
     KIRI_EACH_INDEX(i, sheet->frames) {
         LayFrame(sheet, def, i);
     }
+    sheet->update->isNew = def->frameCount == 0 && !(def->frameLength > 0.0f);
     return kiriBuild_Commit(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;
 }
 

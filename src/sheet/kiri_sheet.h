@@ -413,6 +413,7 @@ typedef struct kiriPlacingWork {
     bool isTaking;               /* the placer is collecting a piece */
     bool isPlacing;              /* the placer is placing sites */
     kiriSlitSearch search;       /* slit ends of the piece */
+    bool isAfresh;               /* this update places all frames again, for pins */
     bool isAgain;                /* all sites of the piece are placed again */
     bool isFirst;                /* first round of re-sampling in this update */
     double whole;                /* m^2: area of the sheet, while items are spread over it */
@@ -447,6 +448,7 @@ typedef struct kiriUpdate {
     int64_t spent;     /* budget items; stage, step and spent together measure the progress */
     bool needsRebuild; /* grid, regions and shape are invalid: the next update rebuilds them */
     bool isScratch;    /* this update rebuilds grid, regions and shape */
+    bool isNew;        /* frames follow from `accuracy`, and no update began: the first places them for pins */
     bool isUnsettled;  /* the mesh has changed since an update settled sites */
 
     kiriCutWork cut;

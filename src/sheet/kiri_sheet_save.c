@@ -222,7 +222,7 @@ KIRI_TABLE(SampleWorkTable, kiriSampleWork, {
 })
 
 KIRI_TABLE(UpdateTable, kiriUpdate, {
-    KIRI_BOOLS(isUnsettled),
+    KIRI_BOOLS(isUnsettled, isNew),
     KIRI_DERIVED,
     KIRI_PART(placing, PlacingWorkTable),
     KIRI_PART(samples, SampleWorkTable),

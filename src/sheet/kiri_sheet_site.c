@@ -422,9 +422,10 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 #define OPEN_CLOSENESS 3.0
 #define OPEN_REACH 1.5
 #define OPEN_FRAMES_AN_END 15.5
+#define BETWEEN_PINS 0.6 /* spacings: a sheet between pins bends to and fro */
 
-/* Returns the initial count of frames of the current piece. */
-static int32_t FramesFor(const kiriSheetData* sheet)
+/* Returns the initial count of frames of the current piece, which has `own` frames. */
+static int32_t FramesFor(const kiriSheetData* sheet, int32_t own)
 {
     const kiriPlacingWork* placing = &sheet->update->placing;
     if (IsCrumbTaken(sheet)) {
@@ -442,9 +443,17 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     double full = OPEN_CLOSENESS * OPEN_CLOSENESS * even;
     double count = even + OPEN_FRAMES_AN_END * placing->placer.ends.count;
     count = 0.5 + kiriMin(count, full);
-    int32_t left = sheet->settings.maxFrames - placing->sites.count;
+    int32_t left = sheet->settings.maxFrames - placing->sites.count + own;
     most = kiriMin(left, most);
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
+}
+
+/* Returns how much closer sites of `spacing` are to be around ends. */
+static double ClosenessFor(const kiriSheetData* sheet, double spacing)
+{
+    double closeness = sheet->settings.frameLength > 0.0 ? OPEN_CLOSENESS : GIVEN_CLOSENESS;
+    double most = 0.5 * spacing / sheet->grid.side; /* two squares apart */
+    return kiriMin(closeness, kiriMax(most, 1.0));
 }
 
 /* Starts placing `count` frames, about `spacing` apart, in the current piece: first in pairs at slit ends, at most half
@@ -453,15 +462,72 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
 {
     kiriPlacer* placer = &sheet->update->placing.placer;
     bool isOpen = sheet->settings.frameLength > 0.0;
-    double closeness = isOpen ? OPEN_CLOSENESS : GIVEN_CLOSENESS, reach = isOpen ? OPEN_REACH : GIVEN_REACH;
-    double most = 0.5 * spacing / sheet->grid.side; /* two squares apart */
-    closeness = closeness < most ? closeness : kiriMax(most, 1.0);
+    double closeness = ClosenessFor(sheet, spacing), reach = isOpen ? OPEN_REACH : GIVEN_REACH;
     placer->sites.count = 0;
     placer->closeness = closeness;
     placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
     return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &placer->ends, spacing / closeness,
                               count / 2) &&
            kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL, count - placer->sites.count);
+}
+
+/* Finds a place for a pair of sites beside a pin: on each side of both ends of a line, in four directions from a point.
+   Corners of the sheet have no room for one. */
+static bool FindHoldEnd(const kiriSheetData* sheet, const kiriPinData* pin, int32_t k, kiriSlitEnd* end)
+{
+    const kiriGrid* grid = &sheet->grid;
+    double spacing = sheet->settings.frameLength, inset = 0.5 * spacing / ClosenessFor(sheet, spacing);
+    kiriVec2 from = kiriMesh_Local(grid->mesh, pin->at), to = kiriMesh_Local(grid->mesh, pin->to);
+    kiriVec2 along = pin->type == KIRI_PIN_POINT ? kiriVec2_Make(k % 2, 1 - k % 2)
+                                                 : kiriVec2_Normalize(kiriVec2_Sub(to, from));
+    double side = k < 2 ? 1.0 : -1.0;
+    end->along = kiriVec2_Make(-side * along.y, side * along.x);
+    end->at = kiriVec2_AddScaled(k % 2 == 0 ? from : to, inset, end->along);
+    end->cell = kiriGrid_CellAt(grid, kiriMesh_Snap(grid->mesh, end->at));
+    return end->cell != KIRI_NONE && kiriSlit_SiteBeside(grid, end, inset).cell != KIRI_NONE &&
+           kiriSlit_SiteBeside(grid, end, -inset).cell != KIRI_NONE;
+}
+
+#define LINE_ENDS 4 /* calls of FindHoldEnd */
+
+bool kiriSites_MeetPins(kiriSheetData* sheet)
+{
+    double* length = &sheet->settings.frameLength;
+    kiriSlitEnd end;
+    bool meets = sheet->pins.count > 1;
+    KIRI_TIMES_WHILE(!meets, k, LINE_ENDS * sheet->pins.count) {
+        meets = FindHoldEnd(sheet, &sheet->pins.data[k / LINE_ENDS], k % LINE_ENDS, &end);
+    }
+    KIRI_EACH_WHILE(meets, const kiriFrameData, frame, sheet->frames) {
+        meets = !frame->held;
+    }
+    if (meets && sheet->pins.count > 1) {
+        *length = kiriMin(*length, kiriMax(BETWEEN_PINS * *length, 3.0 * sheet->grid.side));
+    }
+    return meets;
+}
+
+/* Adds the ends of pins that lie in the current piece to its slit ends. Fails on out of memory. */
+static bool AddHoldEnds(kiriSheetData* sheet)
+{
+    kiriPlacer* placer = &sheet->update->placing.placer;
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        bool isFound = false;
+        KIRI_TIMES_WHILE(!isFound, k, LINE_ENDS) {
+            kiriSlitEnd end;
+            bool isHere = false;
+            if (FindHoldEnd(sheet, pin, k, &end)) {
+                KIRI_EACH_WHILE(!isHere, const int32_t, at, placer->cells) {
+                    isHere = *at == end.cell;
+                }
+            }
+            if (isHere && !kiriArray_Push(sheet->memory, &placer->ends, end)) {
+                return false;
+            }
+            isFound = isHere && pin->type == KIRI_PIN_POINT;
+        }
+    }
+    return true;
 }
 
 /* Loads the piece of a cell, and its slit ends, into the placer. */
@@ -479,6 +545,9 @@ static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cel
     if (progress == KIRI_DONE) {
         progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, placer->cells.data,
                                       placer->cells.count, cells);
+    }
+    if (progress == KIRI_DONE && placing->isAfresh && !AddHoldEnds(sheet)) {
+        return KIRI_FAILED;
     }
     placing->isTaking = progress == KIRI_MORE;
     return progress;
@@ -501,7 +570,7 @@ static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* c
     KIRI_EACH(const int32_t, at, placing->placer.cells) {
         placing->marks.data[*at] = 1;
     }
-    int32_t count = FramesFor(sheet);
+    int32_t count = FramesFor(sheet, 0);
     placing->pieces -= placing->pieces > 0;
     return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
 }
@@ -642,7 +711,13 @@ static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
         largest = kiriMax(need, largest);
     }
     most = kiriMin(left, most);
-    placing->isAgain = areNew && (placing->isFirst || needing > own / 4) && most > 0 && !IsCrumbTaken(sheet);
+    if (placing->isAfresh && placing->isFirst) {
+        int32_t count = FramesFor(sheet, own) - own;
+        placing->isAgain = true;
+        return kiriMax(count, 0);
+    }
+    placing->isAgain = (areNew || placing->isAfresh) && (placing->isFirst || needing > own / 4) && most > 0 &&
+                       !IsCrumbTaken(sheet);
     double more = placing->isAgain ? own * (largest < 1.5 ? largest - 1.0 : 0.5) : 0.5 * needing + 0.5;
     more = kiriMax(1.0, more);
     return most < 1 || IsCrumbTaken(sheet) ? 0 : more < most ? (int32_t)more : most;
@@ -707,8 +782,9 @@ kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
     kiriPlacingWork* placing = &sheet->update->placing;
     for (; placing->at < placing->marks.count && placing->sites.count < sheet->settings.maxFrames;
          ++placing->at) {
-        if (!IsAtPiece(sheet) && (placing->marks.data[placing->at] || !(NeedOf(sheet, placing->at) > 1.0) ||
-                                  IsOfCrumb(sheet, placing->at))) {
+        bool needs = (placing->isAfresh && placing->isFirst) || NeedOf(sheet, placing->at) > 1.0;
+        if (!IsAtPiece(sheet) &&
+            (placing->marks.data[placing->at] || !needs || IsOfCrumb(sheet, placing->at))) {
             continue;
         }
         kiriProgress progress = KIRI_DONE;

@@ -31,6 +31,9 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells);
    cleared marks, one a frame. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
 
+/* Returns true if the pins of a new sheet need frames that are placed again. Then shortens frameLength between pins. */
+bool kiriSites_MeetPins(kiriSheetData* sheet);
+
 /* Returns true if a piece may need more frames, or if this is unknown. */
 bool kiriSites_MayBeFew(const kiriSheetData* sheet);
 

@@ -598,11 +598,15 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
     return RunUpTo(sheet, end, &unlimited, NULL) == KIRI_DONE;
 }
 
-void kiriPipeline_Start(kiriSheetData* sheet)
+void kiriPipeline_Start(kiriSheetData* sheet, int64_t ticks)
 {
     kiriUpdate* u = sheet->update;
-    if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
-        u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, sheet->queue.count, 0, false, false };
+    bool spreads = u->isNew && kiriSites_MeetPins(sheet);
+    u->isNew = false;
+    if (u->stage == KIRI_NONE && (sheet->queue.count > 0 || spreads)) {
+        int64_t stamp = sheet->queue.count > 0 ? sheet->queue.data[0].stamp : ticks;
+        u->cut = (kiriCutWork){ stamp, sheet->queue.count, 0, spreads, spreads };
+        u->placing.isAfresh = spreads;
         u->stage = KIRI_STAGE_CUT;
         u->step = 0;
         u->spent = 0;

@@ -49,7 +49,7 @@ typedef struct kiriWatch {
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 
 /* Starts an update with all pending points, unless one is running. Call at the start of a tick. */
-void kiriPipeline_Start(kiriSheetData* sheet);
+void kiriPipeline_Start(kiriSheetData* sheet, int64_t ticks);
 
 /* Returns true if the quota of the current stage has items left. */
 bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas);

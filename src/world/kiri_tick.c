@@ -101,7 +101,7 @@ static void StartAll(kiriWorld* world, bool finishes)
         if (kiriParts_AreDue(sheet) && !(finishes && sheet->update->stage != KIRI_NONE)) {
             continue;
         }
-        kiriPipeline_Start(sheet);
+        kiriPipeline_Start(sheet, world->ticks);
         if (sheet->update->stage != KIRI_NONE) {
             KIRI_NEXT(world->atWork) = world->active.data[k];
         }
