@@ -65,6 +65,8 @@ static void DrawBasket(Canvas* canvas, const Curtain* curtain, float alpha)
     for (int32_t part = 0; part < BASKET_PARTS; part++) {
         float size[3], position[3];
         Basket_GetPart(curtain, part, x, size, position);
+        size[0] -= part == 0 ? 0.02f : 0.0f; /* the floor ends inside the walls, not in their planes */
+        size[1] -= part == 0 ? 0.02f : 0.0f;
         DrawBox(canvas, position, size, part == 0 ? wickerInside : wicker);
         for (int32_t rib = 0; part > 2 && rib < 9; rib++) { /* the weave of the walls before and behind */
             float from[3] = { position[0] + ((float)rib / 8.0f - 0.5f) * 0.94f * size[0], position[1] - 0.51f * size[1],
