@@ -33,6 +33,7 @@
 #   make deps     installs what is missing for all of these (Debian and its relatives)
 #   make format   clang-format over all sources
 #   make clean    removes build/
+#   make help     prints these lines
 #
 #   config=release|debug|sanitize|thread|coverage|fuzz   default release
 #   RENDERER=osmesa|egl   what samples and games draw by
@@ -722,6 +723,11 @@ deps-portable:
 
 format:
 	clang-format -i $(wildcard include/kiri/*.h src/*/*.h src/*/*.c src/*/*.cpp samples/*.h samples/*.c samples/*.cpp samples/*/*.h samples/*/*.c samples/*/*.cpp tests/*.h tests/*.c tests/*.cpp)
+
+.PHONY: help
+
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
 
 clean:
 	rm -rf build
