@@ -497,14 +497,16 @@ static void DrawSheet(Canvas* canvas, const CanvasSheet* sheet, bool isLit)
     ResetTexture();
 }
 
-/* Round at each end, so that lines join. */
+/* Round at each end, so that lines join. Thin lines join by themselves, and a point would be seen as a dot. */
 static void DrawEdges(const int32_t* ends, int32_t count, float width, Color color)
 {
     glLineWidth(width);
     glPointSize(width);
     SetColor(color);
     glDrawElements(GL_LINES, 2 * count, GL_UNSIGNED_INT, ends);
-    glDrawElements(GL_POINTS, 2 * count, GL_UNSIGNED_INT, ends);
+    if (width > 2.0f) {
+        glDrawElements(GL_POINTS, 2 * count, GL_UNSIGNED_INT, ends);
+    }
 }
 
 /* All lips, then all dark lines; none hides another. */

@@ -299,7 +299,7 @@ typedef struct kiriQuality {
 
 enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
-/* Settings to begin with, for a rectangle (manual, accuracy). */
+/* Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
 typedef struct kiriSetup {
     kiriMaterial material;
     int32_t model, skinning, gridResolution, frameCount, iterations; /* for the sheet def, as the material */
