@@ -538,7 +538,7 @@ type Quality struct {
 	Substeps int32
 }
 
-// Settings to begin with, for a rectangle (manual, accuracy).
+// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
 type Setup struct {
 	Material Material
 	// for the sheet def, as the material

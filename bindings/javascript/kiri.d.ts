@@ -459,7 +459,7 @@ export class Quality {
     substeps: number;
 }
 
-/** Settings to begin with, for a rectangle (manual, accuracy). */
+/** Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
 export class Setup {
     material: Material;
     /** for the sheet def, as the material */

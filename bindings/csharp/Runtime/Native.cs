@@ -728,7 +728,7 @@ namespace Kiri
         public int Substeps;
     }
 
-    /// <summary>Settings to begin with, for a rectangle (manual, accuracy).</summary>
+    /// <summary>Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Setup
     {

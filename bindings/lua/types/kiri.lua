@@ -180,7 +180,7 @@ kiri.DRAW_ALL = 2047
 ---@field iterations? integer # for the sheet def
 ---@field substeps? integer # for kiriWorld_Tick
 
---- Settings to begin with, for a rectangle (manual, accuracy).
+--- Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
 ---@class kiri.Setup
 ---@field material? kiri.Material
 ---@field model? integer # for the sheet def, as the material

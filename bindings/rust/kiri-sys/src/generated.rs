@@ -404,7 +404,8 @@ pub struct kiriQuality {
     pub substeps: i32,
 }
 
-/// Settings to begin with, for a rectangle (manual, accuracy).
+/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
+/// frames for cloth.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSetup {

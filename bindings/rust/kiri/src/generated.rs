@@ -872,7 +872,8 @@ impl Quality {
     }
 }
 
-/// Settings to begin with, for a rectangle (manual, accuracy).
+/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
+/// frames for cloth.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Setup {
