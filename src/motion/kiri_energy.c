@@ -418,13 +418,12 @@ static double WorkOfGravity(kiriVec3 gravity, const kiriFrameData* frames, int32
     return work;
 }
 
-/* Energies here are twice the energies of the sheet. */
+/* Returns the missing part of the energy that a sheet holds, or of the work of gravity if it is larger; half of it where
+   strains count. Energies here are twice the energies of the sheet. */
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
-                      const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material, double work)
+                      const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material,
+                      Rigidity rigidity, double work)
 {
-    double h = material->thickness, nu = material->poissonsRatio;
-    double membrane = material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
-    Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
     double missing = 0.0, held = 0.0;
     KIRI_TIMES(k, linkCount) {
         LinkStrains strains = StrainsOfLink(&links[k], material, frames);
@@ -447,7 +446,8 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
         missing += EnergyOf(&clamps[k].link, &off, rigidity) / 3.0;
         held += EnergyOf(&clamps[k].link, &strains, rigidity);
     }
-    return missing > 0.0 ? missing / kiriMax(missing + held, 0.5 * work) : 0.0;
+    held = kiriMax(held, rigidity.strain > 0.0 ? 0.5 * work - missing : work);
+    return missing > 0.0 ? missing / (missing + held) : 0.0;
 }
 
 bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
@@ -474,7 +474,14 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
         }
     }
     double work = WorkOfGravity(gravity, frames, frameCount, piece, clamps, clampCount);
-    double ratio = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material, work);
+    double h = material->thickness, nu = material->poissonsRatio;
+    double membrane = material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
+    const Rigidity all = { plate * h * h / 12.0, plate, membrane }, bending = { all.bending, 0.0, 0.0 };
+    double ratio = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material, all, work);
+    if (work > 0.0) { /* most energy of a taut sheet is of strains that its clamps made, not its weight */
+        double sag = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material, bending, work);
+        ratio = kiriMax(ratio, sag);
+    }
     *relative = linkCount > 1 ? ratio : 1.0;
     kiriMemory_Free(memory, fits);
     return true;
