@@ -63,6 +63,9 @@ void Test_SetUp(void (*setUp)(int count, char** words));
 #define FIGURE(name) TEST(name)
 #endif
 
+/* A number of runs: seeds, worlds, rows. Sanitizers take many times as long, and get a third: faults of the code, not figures. */
+#define RUNS(count) (IS_SANITIZED ? ((count) + 2) / 3 : (count))
+
 /* SETUP { ... } runs before all tests, with the arguments of main: count and words. */
 #define SETUP                                                                                                          \
     static void SetUp(int count, char** words);                                                                        \

@@ -163,7 +163,7 @@ TEST(SwipesPart)
 {
     static const int32_t steps[4] = { 1, 3, 20, 90 };
     for (int32_t motion = 0; motion < MOTIONS; ++motion) {
-        for (int k = 0; k < 16; ++k) {
+        for (int k = 0; k < RUNS(16); ++k) {
             const Swipe swipe = { 32, steps[k % 4], motion, k % 8 < 4 ? 0 : 10, 0.0, k < 8 ? 0.0 : 0.1 };
             CheckSwipe(&swipe);
         }
@@ -217,7 +217,7 @@ static int32_t CountDiscs(int32_t count, int32_t held)
 
 TEST(CirclesByHand)
 {
-    assert_int_equal(CountDiscs(36, 0), 36);
+    assert_int_equal(CountDiscs(RUNS(36), 0), RUNS(36));
 }
 
 /* A blade that waits where the circle begins closes it as well. */

@@ -713,7 +713,7 @@ TEST(WaitingIsPatient)
     assert_int_equal(result, KIRI_OK);
     assert_int_equal(Host_SheetCount(&host), 2);
     Host_Stop(&host);
-    for (int32_t at = 0; !isDone; at += 3) {
+    for (int32_t at = 0; !isDone; at += IS_SANITIZED ? 9 : 3) {
         assert_int_equal(RunWait(&host, &wait, ticks, at, &result), ticks);
         isDone = result == KIRI_OK;
         assert_true(isDone || result == KIRI_ERROR_MEMORY);

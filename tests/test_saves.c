@@ -8,7 +8,7 @@
 #include "host.h"
 #include "layout_hash.h"
 
-enum { WORLDS = IS_SANITIZED ? 10 : 24, MOST_TICKS = 24, TWIN_TICKS = 5 };
+enum { WORLDS = RUNS(24), MOST_TICKS = 24, TWIN_TICKS = 5 };
 
 static int32_t worldCount = WORLDS, firstWorld = 0;
 

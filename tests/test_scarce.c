@@ -259,9 +259,9 @@ static void RunBoth(const SceneType* type)
 
 static bool IsMeant(const char* name)
 {
-    static const char* const some[] = { "bunny", "flat", "fallingguy", "rubber" };
+    static const char* const some[] = { "bunny", "rubber", "flat", "fallingguy" };
     bool isSome = false;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < RUNS(4); ++i) {
         isSome = isSome || strcmp(name, some[i]) == 0;
     }
     return onlyScene != NULL ? strcmp(name, onlyScene) == 0 : refusesAll || isSome;

@@ -136,7 +136,7 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
 
 TEST(IncrementalEqualsFromScratch)
 {
-    for (int32_t number = 0; number < 80; ++number) {
+    for (int32_t number = 0; number < RUNS(80); ++number) {
         uint32_t seed = 1000u + (uint32_t)number;
         Case c;
         c.mesh = 4 + (int32_t)(Random(&seed) % 16);
@@ -338,7 +338,7 @@ TEST(AnyBudgetEqualsNone)
    together. */
 TEST(BladeFasterThanItsBudget)
 {
-    for (uint32_t number = 0; number < 12; ++number) {
+    for (uint32_t number = 0; number < RUNS(12); ++number) {
         HOST_PAIR(hosts);
         kiriSheet sheets[2];
         Wanderer wanderers[2];
@@ -442,7 +442,7 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 /* What comes of a cut does not depend on it: links that are being made look at all regions that have become dirty. */
 TEST(MaterialChangesAmidWork)
 {
-    for (uint32_t seed = 1; seed < 3; ++seed) {
+    for (uint32_t seed = 1; seed <= RUNS(2); ++seed) {
         int32_t count, ticks;
         uint64_t layout = LayoutAfterCut(seed, 0, &count);
         assert_true(count > 30);
