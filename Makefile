@@ -89,7 +89,7 @@ WERROR ?= -Werror
 FLAGS := -Wall -Wextra -Wpedantic -Wshadow $(WERROR) -ffp-contract=off -fno-math-errno -fPIC -MMD -MP
 FLAGS_release := -O3 -DNDEBUG
 FLAGS_debug := -Og -g -DKIRI_ASSERTS
-FLAGS_sanitize := -O2 -g -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
+FLAGS_sanitize := -O2 -g1 -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanitize-recover=all
 # With clang: `make fuzz` says so. Zero added to a null pointer is no error in C++, and none in the next C.
 FLAGS_fuzz := -O1 -g -DKIRI_ASSERTS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -fno-sanitize=pointer-overflow

@@ -29,7 +29,7 @@ TEST(MomentumOfFalls)
 
 /* A cloth's own motion, and what holds up a body that many of its points are in, could throw one so light. Falls are
    chaotic: from some of these heights it lay still, from others it left at 80 m/s. */
-TEST(LightCratesAreNotThrown)
+FIGURE(LightCratesAreNotThrown)
 {
     for (double ratio : { 1e-3, 1e-2 }) {
         for (double start : { 0.400, 0.401, 0.404, 0.405, 0.406 }) {
@@ -41,7 +41,7 @@ TEST(LightCratesAreNotThrown)
 }
 
 /* What pins of a cloth bear, and what the crate on it feels, is what changes their momentum. */
-TEST(MomentumOfFallsOnCloth)
+FIGURE(MomentumOfFallsOnCloth)
 {
     for (double ratio : { 1e-3, 1.0, 1e3 }) {
         for (double start : { 0.400, 0.402 }) {
@@ -51,7 +51,7 @@ TEST(MomentumOfFallsOnCloth)
 }
 
 /* What is too heavy for the systems of a tick stretches the cloth by more than it should, but does not fall through. */
-TEST(ClothHoldsHeavyCrates)
+FIGURE(ClothHoldsHeavyCrates)
 {
     for (double ratio : { 1.0, 10.0, 1e2, 1e3 }) {
         FallOutcome fall = MeasureFall(ratio, false);
