@@ -307,3 +307,54 @@ FIGURE(CrumpledSheetSleeps)
         fail_msg("%d of 10 awake after 480 ticks, %g m deep", awake, lowest);
     }
 }
+
+/* J: of motion, strains and height. */
+static double EnergyOf(const Host* host, kiriSheet sheet)
+{
+    kiriTotals totals = Host_Totals(host, sheet);
+    return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
+}
+
+/* A sheet on one or two pins gains no energy. Where it falls asleep it is in balance: awake again, it stays. It lies flat
+   at first, so none stands on its pins. Some swing for long. */
+TEST(PinnedSheetsAreLeftAlone)
+{
+    int slept = 0;
+    for (int k = 0; k < 24; ++k) {
+        HOST(host);
+        float before[3 * 169];
+        double way = 0.0;
+        uint32_t seed = (uint32_t)k + 1;
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        OK(kiriGetMaterial(k % KIRI_MATERIAL_COUNT, &def.material));
+        def.material.detail = 0;
+        def.model = k / 10 % 2;
+        def.skinning = k < 20 ? KIRI_SKINNING_SMOOTH : KIRI_SKINNING_LINEAR;
+        def.frameCount = def.maxFrames = 4 + k % 12;
+        def.gridResolution = 16;
+        def.iterations = 1 + k / 3 % 4;
+        Host_Start(&host);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 0.8f, 0.6f, 12, 12);
+        for (int i = 0; i <= k % 2; ++i) {
+            float u = (float)RandomBetween(&seed, 0.1, 0.7), v = (float)RandomBetween(&seed, 0.1, 0.5);
+            Host_Pin(&host, sheet, u, v, u, v, 0.0f);
+        }
+        double most = EnergyOf(&host, sheet) + 0.01 * 9.81 * Host_Totals(&host, sheet).mass;
+        for (int tick = 0; tick < 1200 && IsAwake(&host, sheet); ++tick) {
+            OK(kiriWorld_Tick(host.world, dt, 1 + k % 4));
+            assert_true(EnergyOf(&host, sheet) <= most);
+        }
+        memcpy(before, Host_Mesh(&host, sheet).positions, sizeof(before));
+        slept += !IsAwake(&host, sheet);
+        for (int tick = 0; tick < 120 && !(tick == 0 && IsAwake(&host, sheet)); ++tick) {
+            OK(kiriSheet_Wake(host.world, sheet));
+            OK(kiriWorld_Tick(host.world, dt, 1 + k % 4));
+            for (int n = 0; n < 3 * 169; ++n) {
+                way = fmax(way, fabs((double)(Host_Mesh(&host, sheet).positions[n] - before[n])));
+            }
+        }
+        assert_true(way < 0.004);
+    }
+    assert_true(slept >= 21);
+}

@@ -40,7 +40,7 @@ static inline void kiriWrench_Store(const kiriWrench* wrench, double force[3], d
    own. */
 typedef struct kiriHistory {
     double dt;         /* s: length of the last step; 0: no history, all other fields are zero */
-    double credit;     /* J: share of the energy that the body lost and may get back */
+    double credit;     /* J: share of the energy that the body lost and may get back; negative: taken in this step */
     int32_t isHalf;    /* the next step may be the second of a pair */
     int32_t isHeld;    /* the host moved the frame in the last step */
     kiriVec3 gain;     /* q, m/s: velocity gained from inner forces */

@@ -208,7 +208,8 @@ static void CountCalm(kiriSheetData* sheet, double dt)
         double spare = 0.0;
         KIRI_EACH(const int32_t, at, frames) {
             const kiriFrameData* frame = &sheet->frames.data[*at];
-            double moves = kiriFrame_KineticEnergy(frame, &sheet->settings.material) / frame->mass;
+            double taken = kiriMin(frame->history.credit, 0.0); /* the pose moved with it */
+            double moves = (kiriFrame_KineticEnergy(frame, &sheet->settings.material) - taken) / frame->mass;
             spare += frame->mass * (limit * limit - moves * moves);
         }
         rest->calm = spare > 0.0 ? rest->calm + dt : 0.0;

@@ -325,7 +325,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
         if (IsAwakePoint(sheet, i)) {
             /* A yielding obstacle is a second spring in series. */
             kiriPinData* pin = &sheet->pins.data[i];
-            kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->off), pin->anchor.way);
+            kiriVec3 target = kiriVec3_Add(TargetAfter(pin, to), pin->anchor.way);
             double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
             KIRI_NEXT(sheet->pinRows) = (kiriPinRow){ sheet->layout.pinFrame.data[i],
                                                       kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness,
@@ -667,20 +667,6 @@ static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured,
     }
 }
 
-static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
-{
-    KIRI_ASSERT_HAS(sheet->pins, index);
-    kiriPinData* pin = &sheet->pins.data[index];
-    int32_t frame = sheet->layout.pinFrame.data[index];
-    const kiriFrameData* data = &sheet->frames.data[frame];
-    kiriVec3 seen;
-    if (FindSeen(sheet, frame, pin->at, &seen)) {
-        kiriVec3 own = kiriFrame_Carry(data, kiriMesh_Local(&sheet->mesh, pin->at));
-        Settle(sheet, &pin->off, kiriVec3_Sub(own, seen), pin->offFrame == data->id, dt);
-        pin->offFrame = data->id;
-    }
-}
-
 /* Returns true if both shares hold the same piece for the same clamp. */
 static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
 {
@@ -755,10 +741,6 @@ static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 static void DropOffs(kiriSheetData* sheet)
 {
     const kiriVec3 none = { 0 };
-    KIRI_EACH(kiriPinData, pin, sheet->pins) {
-        pin->off = none;
-        pin->offFrame = 0;
-    }
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
         share->off = none;
     }
@@ -774,11 +756,6 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
     if (sheet->settings.skinning == KIRI_SKINNING_LINEAR) {
         DropOffs(sheet);
         return;
-    }
-    KIRI_EACH_INDEX(i, sheet->pins) {
-        if (IsAwakePoint(sheet, i)) {
-            SettlePoint(sheet, i, dt);
-        }
     }
     KIRI_EACH_INDEX(k, sheet->layout.pinShares) {
         const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];

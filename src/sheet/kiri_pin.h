@@ -70,11 +70,12 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt);
 
    Targets of the host are interpolated linearly over the steps.
 
-   A pin holds the visible point. A smooth surface (KIRI_SKINNING_SMOOTH) is offset from the point of a single frame. So
-   the target of a pin, or of a held frame, is shifted by the offset between the frame's point and the surface of the
+   A clamp or held frame holds the visible surface. A smooth surface (KIRI_SKINNING_SMOOTH) is offset from the point of a
+   single frame. So the target of a held frame is shifted by the offset between the frame's point and the surface of the
    last tick. A clamp shifts its pose by the mean offset over all shares of a piece: separate offsets would bend the
    line and curl the sheet. The offset converges in some ticks; then the sheet may sleep. A hinge needs no offset: it
-   turns freely, so the surface does not bend there and lies on the line.
+   turns freely, so the surface does not bend there and lies on the line. A pin has none: the sheet turns about it, and
+   targets that follow the last tick would give it energy. kiriPins_Draw draws its point at the pin.
 
    An obstacle with mass yields to a pin. The host applies the impulses of the whole tick at once and then moves the
    obstacle; the model here does the same. W is the velocity of the target per impulse, and J the impulse of the pin so

@@ -211,8 +211,6 @@ typedef struct kiriPinData {
     kiriMat3 lastRotation;
     double breakForce;     /* N; 0: never breaks */
     kiriPinAnchor anchor;  /* point */
-    kiriVec3 off;          /* m; point: surface offset, see kiri_pin.h */
-    kiriFrame offFrame;    /* the frame that `off` was measured for */
     double stiffness;      /* point */
     kiriReaction reaction; /* point */
     kiriWrench bore;       /* about the target: mean over the last tick that moved the sheet */

@@ -98,12 +98,10 @@ KIRI_TABLE(PinDataTable, kiriPinData, {
     KIRI_RUN(4, at, to),
     KIRI_REALS(target, breakForce),
     KIRI_PART(anchor, PinAnchorTable),
-    KIRI_REALS(off),
     KIRI_REALS(stiffness, bore),
     KIRI_UNHASHED,
     KIRI_RUN(4, id),
     KIRI_RUN(8, userData),
-    KIRI_RUN(4, offFrame),
 })
 
 KIRI_TABLE(ContactTable, kiriContact, {

@@ -417,7 +417,6 @@ static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, 
 static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
 {
     KIRI_EACH(kiriPinData, pin, sheet->pins) {
-        TurnVector(R, &pin->off);
         TurnReaction(R, &pin->reaction);
         TurnWrench(R, &pin->bore);
     }
