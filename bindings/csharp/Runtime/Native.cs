@@ -1438,7 +1438,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 2400;
+        public const int Version = 2500;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
