@@ -151,14 +151,6 @@ static double Milliseconds(void)
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
-/* Energy, with the weight's. */
-static double EnergyOf(const Fold* fold)
-{
-    kiriTotals totals;
-    kiriSheet_GetTotals(fold->world, fold->sheet, &totals);
-    return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
-}
-
 static void MeasureFold(const FoldCase* of, int32_t selfContact)
 {
     Fold fold;
@@ -177,7 +169,7 @@ static void MeasureFold(const FoldCase* of, int32_t selfContact)
         kiriWorld_Tick(fold.world, dt, 2);
         spent += Milliseconds() - start;
         ticks += 1;
-        energy = EnergyOf(&fold);
+        energy = World_Energy(fold.world, fold.sheet);
         gained = tick > of->freeAt + 1 && of->move == NULL ? fmax(gained, energy / before - 1.0) : gained;
         Crossing crossing = Crossing_MeasureSelf(fold.world, fold.sheet);
         last = crossing.crossing;

@@ -54,6 +54,14 @@ static inline kiriObstacleDef ObstacleOf(int32_t type)
     return def;
 }
 
+/* J: of motion, strains and height. */
+static inline double World_Energy(const kiriWorld* world, kiriSheet sheet)
+{
+    kiriTotals totals;
+    kiriSheet_GetTotals(world, sheet, &totals);
+    return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
+}
+
 static inline void Set3(float vector[3], float x, float y, float z)
 {
     vector[0] = x;

@@ -50,13 +50,6 @@ static kiriSheet AddSheet(kiriWorld* world, const Fall* fall)
     return sheet;
 }
 
-static double GetEnergy(const kiriWorld* world, kiriSheet sheet)
-{
-    kiriTotals totals;
-    kiriSheet_GetTotals(world, sheet, &totals);
-    return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
-}
-
 /* The longer of its two diagonals, from corner to corner. */
 static double GetDiagonal(kiriWorld* world, kiriSheet sheet)
 {
@@ -86,11 +79,11 @@ static bool TryFall(const Fall* fall)
         AddObstacle(world, fall->obstacle, fall->obstacle == KIRI_OBSTACLE_BOX ? 0.12f : 0.17f);
     }
     kiriSheet sheet = AddSheet(world, fall);
-    double first = GetEnergy(world, sheet), most = 0.0, longest = 0.0, length = sqrt(2.0) * (double)side;
+    double first = World_Energy(world, sheet), most = 0.0, longest = 0.0, length = sqrt(2.0) * (double)side;
     int32_t diverged = 0;
     for (int32_t i = 0; i < TICKS; i++) {
         diverged += kiriWorld_Tick(world, 1.0f / 60.0f, SUBSTEPS) != KIRI_OK;
-        most = fmax(most, GetEnergy(world, sheet));
+        most = fmax(most, World_Energy(world, sheet));
         longest = fmax(longest, GetDiagonal(world, sheet));
     }
     bool fine = diverged == 0 && most < 1.02 * first && longest < 1.15 * length;
