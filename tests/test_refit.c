@@ -235,7 +235,7 @@ TEST(FarFramesKeepTheirState)
     Host_Cut(&probe.host, probe.sheet, way, 3);
     kiriSheetData* sheet = DataOf(&probe);
     kiriQuotas all = kiriQuotas_Unlimited();
-    kiriPipeline_Start(sheet);
+    kiriPipeline_Start(sheet, 0);
     assert_int_equal(kiriPipeline_Run(sheet, &all, NULL), KIRI_DONE);
     kiriStage_CommitMesh(sheet);
     kiriStage_Commit(sheet);

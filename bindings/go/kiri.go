@@ -606,7 +606,7 @@ type SheetDef struct {
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
-	// 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
+	// 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02
 	Accuracy float32
 	// 2 floats a frame, or null
 	FramePoints [][2]float32

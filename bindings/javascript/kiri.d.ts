@@ -544,7 +544,7 @@ export class SheetDef {
     frameCount: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength: number;
-    /** 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
+    /** 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02 */
     accuracy: number;
     /** 2 floats a frame, or null */
     framePoints: Float32Array | null;
@@ -624,7 +624,7 @@ export interface SheetDefGiven {
     frameCount?: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength?: number;
-    /** 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
+    /** 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02 */
     accuracy?: number;
     /** 2 floats a frame, or null */
     framePoints?: ArrayLike<number> | null;

@@ -363,7 +363,7 @@ typedef struct kiriSheetDef {
        frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). */
     int32_t frameCount; /* 0, or 1 and more; default 5 */
     float frameLength;  /* m; used where frameCount is 0; default 0 */
-    float accuracy;     /* 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
+    float accuracy; /* 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02 */
     const float* framePoints; /* 2 floats a frame, or null */
     int32_t maxFrames; /* re-sampling stops here; default 256 */
     /* Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames

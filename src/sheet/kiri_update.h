@@ -48,7 +48,7 @@ typedef struct kiriWatch {
    again for later stages. Fails on out of memory. */
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 
-/* Starts an update with all pending points, unless one is running. Call at the start of a tick. */
+/* Starts an update with all pending points, or for the pins of a new sheet, unless one runs. ticks: of the world. */
 void kiriPipeline_Start(kiriSheetData* sheet, int64_t ticks);
 
 /* Returns true if the quota of the current stage has items left. */

@@ -804,7 +804,7 @@ namespace Kiri
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
-        /// <summary>1e-4 to 1; used where frameCount and frameLength are 0; default 0.02</summary>
+        /// <summary>1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02</summary>
         public float Accuracy;
         /// <summary>2 floats a frame, or null</summary>
         internal float* framePoints;

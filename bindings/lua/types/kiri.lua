@@ -217,7 +217,7 @@ kiri.DRAW_ALL = 2047
 ---@field weldDistance? number # m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
 ---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 5
 ---@field frameLength? number # m; used where frameCount is 0; default 0
----@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
+---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02
 ---@field framePoints? number[]|ffi.cdata* # 2 floats a frame, or null
 ---@field maxFrames? integer # re-sampling stops here; default 256
 ---@field rigidWeight? number # Re-sampling: a frame whose weight exceeds rigidWeight over an area larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of a frame's area (manual, accuracy). default 0.95, 0

@@ -488,7 +488,8 @@ pub struct kiriSheetDef {
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,
-    /// 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02
+    /// 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default
+    /// 0.02
     pub accuracy: f32,
     /// 2 floats a frame, or null
     pub framePoints: *const f32,

@@ -1004,7 +1004,8 @@ pub struct SheetDef<'a> {
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
-    /// 1e-4 to 1; used where `frame_count` and `frame_length` are 0; default 0.02
+    /// 1e-4 to 1; used where `frame_count` and `frame_length` are 0; heeds pins of a new sheet;
+    /// default 0.02
     pub accuracy: f32,
     /// 2 floats a frame, or null
     pub frame_points: Option<&'a [[f32; 2]]>,
