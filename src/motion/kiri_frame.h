@@ -39,7 +39,7 @@ static inline void kiriWrench_Store(const kiriWrench* wrench, double force[3], d
    Turns are in world axes: for a rigid frame only the column u is used, for an affine frame each column of A has its
    own. */
 typedef struct kiriHistory {
-    double dt;         /* s: length of the last step; 0: no history, all other fields are zero */
+    double dt;         /* s: length of the last step; 0: no history, all other fields are zero but a negative credit */
     double credit;     /* J: share of the energy that the body lost and may get back; negative: taken in this step */
     int32_t isHalf;    /* the next step may be the second of a pair */
     int32_t isHeld;    /* the host moved the frame in the last step */
