@@ -93,7 +93,7 @@ FLAGS_sanitize := -O2 -g1 -DKIRI_ASSERTS -fsanitize=address,undefined -fno-sanit
 # With clang: `make fuzz` says so. Zero added to a null pointer is no error in C++, and none in the next C.
 FLAGS_fuzz := -O1 -g -DKIRI_ASSERTS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -fno-sanitize=pointer-overflow
-FLAGS_thread := -O2 -g -DKIRI_ASSERTS -fsanitize=thread
+FLAGS_thread := -O2 -g1 -DKIRI_ASSERTS -fsanitize=thread
 # Lines of src are counted. At -O0 the programs take ten times as long.
 FLAGS_coverage := $(FLAGS_release)
 FLAGS_counted := -O1 --coverage

@@ -190,7 +190,7 @@ static uint64_t PlayEvents(Play* play, const Recorded* recorded, int32_t firstTi
 }
 
 /* What was recorded gives the same again, after a restart, too. */
-TEST(CurtainIsReplayed)
+FIGURE(CurtainIsReplayed)
 {
     static Recorded recorded;
     static Play play;

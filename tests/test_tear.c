@@ -523,7 +523,7 @@ TEST(SavesAndSnapshotsGoOn)
     }
 }
 
-TEST(TearsAreReplayed)
+FIGURE(TearsAreReplayed)
 {
     Tape tape;
     Trouser t;
