@@ -36,15 +36,14 @@ static bool MakeSheet(kiriWorld** world, int32_t frames, int32_t model)
     return fine;
 }
 
-/* Entries of the lower triangle in the block of two frames. */
-static void AddEntries(SparseSystem* system, const kiriMatrix* matrix, int32_t size, int32_t down, int32_t across)
+/* Entries of a block of two frames, in the lower triangle. */
+static void AddEntries(SparseSystem* system, const double* block, int32_t size, int32_t down, int32_t across)
 {
-    double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
-    kiriMatrix_GetBlock(matrix, down, across, block);
     for (int32_t c = 0; c < size; ++c) {
         for (int32_t r = down == across ? c : 0; r < size; ++r) {
-            ((int32_t*)system->row)[system->entries] = size * down + r;
-            ((int32_t*)system->column)[system->entries] = size * across + c;
+            int32_t row = size * down + r, column = size * across + c;
+            ((int32_t*)system->row)[system->entries] = row > column ? row : column;
+            ((int32_t*)system->column)[system->entries] = row > column ? column : row;
             ((double*)system->value)[system->entries++] = block[size * c + r];
         }
     }
@@ -54,22 +53,23 @@ static void AddEntries(SparseSystem* system, const kiriMatrix* matrix, int32_t s
 static SparseSystem ReadSystem(kiriSolver* solver)
 {
     const kiriMatrix* matrix = solver->bodies.bodies.data[0].matrix;
-    int32_t size = solver->size, frames = kiriMatrix_FrameCount(matrix), pairs = kiriMatrix_PairCount(matrix);
-    size_t most = (size_t)(frames + pairs) * (size_t)(size * size);
+    int32_t size = solver->size, frames = matrix->count;
+    size_t most = (size_t)matrix->values.count;
     SparseSystem system = { size * frames,
                             0,
                             malloc(sizeof(int32_t) * most),
                             malloc(sizeof(int32_t) * most),
                             malloc(sizeof(double) * most),
                             solver->force.data };
-    FREED(kiriPair, pair) = malloc(sizeof(kiriPair) * (size_t)pairs);
-    kiriMatrix_GetPairs(matrix, pair);
+    FREED(int32_t, frameOf) = malloc(sizeof(int32_t) * (size_t)frames);
     for (int32_t f = 0; f < frames; ++f) {
-        AddEntries(&system, matrix, size, f, f);
+        frameOf[matrix->order.data[f]] = f;
     }
-    for (int32_t k = 0; k < pairs; ++k) {
-        bool isSwapped = pair[k].a < pair[k].b;
-        AddEntries(&system, matrix, size, isSwapped ? pair[k].b : pair[k].a, isSwapped ? pair[k].a : pair[k].b);
+    for (int32_t c = 0, b = 0; c < frames; ++c) {
+        for (; b < matrix->pattern.start.data[c + 1]; ++b) {
+            AddEntries(&system, matrix->values.data + (ptrdiff_t)size * size * b, size,
+                       frameOf[matrix->pattern.row.data[b]], frameOf[c]);
+        }
     }
     return system;
 }
@@ -93,7 +93,7 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
     FREED(kiriPair, pair) = malloc(sizeof(kiriPair) * (size_t)pairs);
     double start = Bench_Clock(NULL);
     kiriMatrix_GetPairs(own, pair);
-    bool fine = kiriMatrix_Shape(matrix, kiriMatrix_FrameCount(own), pair, pairs);
+    bool fine = kiriMatrix_Shape(matrix, own->count, pair, pairs);
     double analysed = Bench_Clock(NULL);
     fine = fine && kiriMatrix_Factor(own);
     double factored = Bench_Clock(NULL);
@@ -107,17 +107,17 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
 static void PrintSolver(Table* table, const kiriSolver* solver, const char* name, const SolverTimes* times,
                         const SolverTimes* ours, double error)
 {
-    TABLE_NUMBERS(table, kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix), solver->size);
+    TABLE_NUMBERS(table, solver->bodies.bodies.data[0].matrix->count, solver->size);
     Table_Text(table, name);
     TABLE_NUMBERS(table, 1e3 * times->analyse, 1e3 * times->factor, 1e3 * times->solve,
-                  1e6 * (times->factor + times->solve) / kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix),
+                  1e6 * (times->factor + times->solve) / solver->bodies.bodies.data[0].matrix->count,
                   (times->factor + times->solve) / (ours->factor + ours->solve),
                   times->rounds > 0 ? times->rounds : (double)NAN, log10(error));
 }
 
 static bool BenchSolvers(Table* table, kiriSolver* solver)
 {
-    int32_t frames = kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix);
+    int32_t frames = solver->bodies.bodies.data[0].matrix->count;
     SparseSystem system = ReadSystem(solver);
     FREED(double, reference) = malloc(sizeof(double) * (size_t)system.unknowns);
     FREED(double, solution) = malloc(sizeof(double) * (size_t)system.unknowns);

@@ -50,9 +50,7 @@ static inline uint64_t MatrixHash(kiriMemory* memory, int32_t size, bool refuses
     if (matrix == NULL || !kiriMatrix_Shape(matrix, MATRIX_FRAMES, pairs, pairCount)) {
         return 0;
     }
-    if (refusesAvx) {
-        kiriMatrix_RefuseAvx(matrix);
-    }
+    matrix->usesAvx &= !refusesAvx;
     kiriMatrix_Clear(matrix);
     for (int32_t n = 0; n < size; ++n) {
         own[(size + 1) * n] = 1.0;

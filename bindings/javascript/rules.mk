@@ -24,7 +24,7 @@ WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindi
 # What ticks spend their time in is compiled for speed, within reason; all else for size.
 WASM_HOT_SOURCES := $(addsuffix .c, \
     $(addprefix src/motion/kiri_,contact_row element frame solver step strain) $(addprefix src/view/kiri_,sample skin surface) \
-    $(addprefix src/field/kiri_,geodesic path shape stencil) $(addprefix src/sheet/kiri_,meeting touch))
+    $(addprefix src/field/kiri_,geodesic path shape stencil) $(addprefix src/sheet/kiri_,meeting touch) src/solver/kiri_pattern)
 
 .PHONY: wasm
 

@@ -159,6 +159,6 @@ void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMecha
     KIRI_TIMES_WHILE(!kiriArchive_HasFailed(archive), b, bodies) {
         kiriSolverBody* body = &solver->bodies.bodies.data[b];
         kiriMatrix_Archive(archive, body->matrix);
-        kiriArchive_Expect(archive, kiriMatrix_FrameCount(body->matrix) == body->frames.count);
+        kiriArchive_Expect(archive, body->matrix->count == body->frames.count);
     }
 }

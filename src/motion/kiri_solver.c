@@ -450,7 +450,7 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver)
 /* The links of a frame cost as much as 80 products of blocks, or as 4 contacts. */
 static int64_t WorkOf(const kiriMatrix* matrix, int32_t size, int64_t frames, int64_t contacts)
 {
-    return 4 * frames * (size > 6 ? 3 : 1) + contacts + kiriMatrix_ProductCount(matrix) / 20;
+    return 4 * frames * (size > 6 ? 3 : 1) + contacts + matrix->products / 20;
 }
 
 int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount)

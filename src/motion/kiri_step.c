@@ -818,7 +818,7 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, const Spring
 
 kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_ASSERT(kiriMatrix_FrameCount(solver->matrix) == system->frameCount);
+    KIRI_ASSERT(solver->matrix->count == system->frameCount);
     kiriMatrix_Clear(solver->matrix);
     kiriSolver_LinearizeContacts(solver, system);
     KIRI_TIMES(f, system->frameCount) {
