@@ -14,12 +14,13 @@ static kiriSheet Hang(Host* host, kiriSheetDef* def)
     return sheet;
 }
 
-/* Points beside a line are drawn on the skin, unlike points beside a pin. */
-static kiriSheet HangByLine(Host* host, kiriSheetDef* def)
+/* Points near a held frame are drawn on the skin, unlike points near a pin. */
+static kiriSheet HangByFrame(Host* host, kiriSheetDef* def)
 {
-    kiriPin hinge;
     kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 4, 4);
-    OK(kiriSheet_HingeLine(host->world, sheet, (const float[]){ 0.0f, 1.0f }, (const float[]){ 0.1f, 1.0f }, &hinge));
+    kiriFrame frame = World_PointState(host->world, sheet, (const float[]){ 0.05f, 0.95f }).frame;
+    kiriFrameState state = World_FrameState(host->world, frame);
+    OK(kiriFrame_Hold(host->world, frame, state.position, state.rotation));
     return sheet;
 }
 
@@ -138,7 +139,7 @@ TEST(PointIsWhatIsSeen)
         const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f };
         START_HOST(host);
         def.skinning = skinning;
-        kiriSheet sheet = HangByLine(&host, &def);
+        kiriSheet sheet = HangByFrame(&host, &def);
         Host_Cut(&host, sheet, line, 2);
         Host_Ticks(&host, 30, DT, 2);
         kiriMesh mesh = Host_Mesh(&host, sheet);
@@ -241,7 +242,7 @@ TEST(ImpulseIsMomentum)
         def.skinning = way % 2;
         def.material.detail = 0; /* impulses act on the surface without it */
         def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
-        kiriSheet sheet = HangByLine(&host, &def);
+        kiriSheet sheet = HangByFrame(&host, &def);
         Host_Ticks(&host, 20, DT, 2);
         Host_Cut(&host, sheet, line, 2);
         OK(Host_Tick(&host, DT, 2));
@@ -436,31 +437,31 @@ TEST(HeldFrameMovesEvenly)
     }
 }
 
-/* Hung up with a smooth surface: what is seen is where it is held, and it falls asleep. */
+/* A pinned point and a clamped line are drawn where they are held, a held frame nearly, and the sheet falls asleep. */
 TEST(SeenIsHeld)
 {
-    for (int kind = 0; kind < 3; ++kind) {
-        const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
+    for (int k = 0; k < 6; ++k) {
+        const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f }, nearer[3] = { 0.8f, 1.0f, 0.0f };
+        int kind = k / 2, awake = 1;
+        double off = 0.0;
         kiriPin pin;
         kiriFrame frames[9];
         kiriFrameState held;
-        int32_t count, awake = 1;
         START_HOST(host);
         host.every = 60;
         kiriSheetDef def = DefaultSheet();
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
         def.frameCount = 9;
-        def.skinning = KIRI_SKINNING_SMOOTH;
+        def.skinning = k % 2;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
+        World_GetFrames(host.world, sheet, frames, 9);
+        held = World_FrameState(host.world, frames[8]);
         if (kind == 0) {
-            const float nearer[3] = { 0.8f, 1.0f, 0.0f };
             PinTo(&host, sheet, 0, 0.0f, 1.0f);
             OK(kiriPin_SetTarget(host.world, PinTo(&host, sheet, 0, 1.0f, 1.0f), nearer));
         } else if (kind == 1) {
             OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pin));
         } else {
-            OK(kiriSheet_GetFrames(host.world, sheet, frames, 9, &count));
-            OK(kiriFrame_GetState(host.world, frames[8], &held));
             OK(kiriFrame_Hold(host.world, frames[8], held.position, held.rotation));
         }
         for (int i = 0; i < 1800 && awake; ++i) {
@@ -468,126 +469,14 @@ TEST(SeenIsHeld)
             OK(kiriSheet_IsAwake(host.world, sheet, &awake));
         }
         assert_false(awake);
-        const float left[3] = { 0.0f, 1.0f, 0.0f }, right[3] = { 0.8f, 1.0f, 0.0f }, middle[3] = { 0.5f, 1.0f, 0.0f };
-        double off = kind == 0 ? fmax(Apart(PointAt(&host, sheet, 0.0f, 1.0f).position, left),
-                                      Apart(PointAt(&host, sheet, 1.0f, 1.0f).position, right))
-                     : kind == 1
-                         ? Apart(PointAt(&host, sheet, 0.5f, 1.0f).position, middle)
-                         : Apart(PointAt(&host, sheet, held.restPoint[0], held.restPoint[1]).position, held.position);
-        print_message("case %d: seen %.2f mm off\n", kind, 1e3 * off);
-        assert_true(off < (kind == 1 ? 1e-3 : 1e-4));
-    }
-}
-
-enum { STRIP_FRAMES = 64, STRIP_EDGES = 3 };
-
-typedef struct HungStrip {
-    kiriFrameState frames[STRIP_FRAMES];
-    int32_t count;
-    double drop, off; /* of the free edge; of the clamped one, at most */
-} HungStrip;
-
-/* A strip of paper that hangs from a clamp along its edge u = 0, u = 0.2 or v = 0. */
-static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, int edge, HungStrip* strip)
-{
-    static const float froms[STRIP_EDGES][2] = { { 0.0f, 0.0f }, { 0.2f, 0.0f }, { 0.0f, 0.0f } };
-    static const float tos[STRIP_EDGES][2] = { { 0.0f, 0.05f }, { 0.2f, 0.05f }, { 0.2f, 0.0f } };
-    static const float tips[STRIP_EDGES][2] = { { 0.2f, 0.025f }, { 0.0f, 0.025f }, { 0.1f, 0.05f } };
-    const float *from = froms[edge], *to = tos[edge];
-    kiriFrame frames[STRIP_FRAMES];
-    START_HOST(host);
-    host.every = 600;
-    kiriSheetDef def = DefaultSheet();
-    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
-    def.frameCount = frameCount;
-    def.gridResolution = resolution;
-    def.skinning = skinning;
-    def.sleepSpeed = 0.0f;
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.05f, 40, 10);
-    World_Clamp(host.world, sheet, from, to);
-    Host_Ticks(&host, 600, DT, 2);
-    OK(kiriSheet_GetFrames(host.world, sheet, frames, STRIP_FRAMES, &strip->count));
-    for (int32_t i = 0; i < strip->count; ++i) {
-        OK(kiriFrame_GetState(host.world, frames[i], &strip->frames[i]));
-    }
-    strip->drop = -PointAt(&host, sheet, tips[edge][0], tips[edge][1]).position[2];
-    strip->off = 0.0;
-    for (int k = 0; k <= 20; ++k) {
-        float t = (float)k / 20.0f;
-        const float at[3] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), 0.0f };
-        strip->off = fmax(strip->off, Apart(PointAt(&host, sheet, at[0], at[1]).position, at));
-    }
-}
-
-/* The most that the shapes differ by: how far any frame is from where the first one, moved by what it is off, has
-   it. */
-static double ShapesApart(const HungStrip* a, const HungStrip* b)
-{
-    double most = 0.0;
-    assert_int_equal(a->count, b->count);
-    for (int32_t i = 0; i < a->count; ++i) {
-        double square = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            double first = (double)a->frames[0].position[k] - b->frames[0].position[k];
-            square += pow((double)a->frames[i].position[k] - b->frames[i].position[k] - first, 2.0);
+        for (int i = 0; i <= 20; i += kind == 0 ? 20 : 1) {
+            const float u = kind == 2 ? held.restPoint[0] : 0.05f * (float)i, v = kind == 2 ? held.restPoint[1] : 1.0f;
+            const float at[3] = { kind == 0 && i == 20 ? 0.8f : u, v, 0.0f };
+            off = fmax(off, Apart(PointAt(&host, sheet, u, v).position, at));
         }
-        most = fmax(most, sqrt(square));
+        print_message("case %d: seen %.2f mm off\n", k, 1e3 * off);
+        assert_true(off < (kind == 0 ? 1e-4 : kind == 1 ? 1e-3 : 3e-3));
     }
-    return most;
-}
-
-/* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and
-   hangs as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
-FIGURE(SmoothClampKeepsShape)
-{
-    static const int32_t layouts[][2] = { { 0, 32 }, { 9, 32 }, { 14, 48 } };
-    for (int i = 0; i < 3 * STRIP_EDGES; ++i) {
-        const int32_t* layout = layouts[i / STRIP_EDGES];
-        HungStrip flat, smooth;
-        HangStrip(KIRI_SKINNING_LINEAR, layout[0], layout[1], i % STRIP_EDGES, &flat);
-        HangStrip(KIRI_SKINNING_SMOOTH, layout[0], layout[1], i % STRIP_EDGES, &smooth);
-        double apart = ShapesApart(&flat, &smooth);
-        print_message("%d frames, edge %d: %.2f mm down, smooth %.2f, shapes %.3f mm apart, %.2f mm off the clamp\n",
-                      flat.count, i % STRIP_EDGES, 1e3 * flat.drop, 1e3 * smooth.drop, 1e3 * apart, 1e3 * smooth.off);
-        assert_true(apart < 3e-4 && smooth.off < 5e-4);
-        assert_true(fabs(smooth.drop - flat.drop) < (layout[0] == 9 ? 2.5e-3 : 1.6e-3));
-    }
-}
-
-/* Where the half with lower v of a sheet hangs that is cut in two, from one clamp for both; the other half is
-   pushed. */
-static kiriPointState HangHalf(float push)
-{
-    static const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.1f }, pushed[2] = { 0.2f, 0.08f };
-    static const float way[4] = { -0.01f, 0.05f, 0.21f, 0.05f };
-    const float force[3] = { 0.0f, 0.0f, push };
-    START_HOST(host);
-    host.every = 120;
-    kiriSheetDef def = DefaultSheet();
-    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
-    def.frameCount = 24;
-    def.gridResolution = 48;
-    def.skinning = KIRI_SKINNING_SMOOTH;
-    def.sleepSpeed = 0.0f;
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.1f, 20, 10);
-    World_Clamp(host.world, sheet, from, to);
-    kiriCut cut = World_BeginCut(host.world, sheet, way);
-    OK(kiriCut_Extend(host.world, cut, way + 2, 1));
-    OK(kiriCut_End(host.world, cut));
-    for (int i = 0; i < 120; ++i) {
-        OK(Host_Tick(&host, DT, 2));
-        OK(kiriSheet_ApplyForce(host.world, sheet, pushed, force, noVector));
-    }
-    return PointAt(&host, sheet, 0.2f, 0.02f);
-}
-
-/* What is seen of one piece does not move the clamp for another. */
-TEST(SmoothClampKeepsPiecesApart)
-{
-    kiriPointState alone = HangHalf(0.0f), beside = HangHalf(0.02f);
-    double apart = Apart(alone.position, beside.position);
-    print_message("a half hangs %.4f mm from where it does beside one that is pushed\n", 1e3 * apart);
-    assert_true(alone.position[2] < -0.1f && apart < 1e-5);
 }
 
 static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
@@ -735,7 +624,7 @@ TEST(VelocityIsRigid)
         START_HOST(host);
         def.material.detail = 0; /* velocities are of the surface without it */
         def.model = model;
-        kiriSheet sheet = HangByLine(&host, &def);
+        kiriSheet sheet = HangByFrame(&host, &def);
         Host_Ticks(&host, 10, DT, 2);
         OK(kiriSheet_SetVelocity(host.world, sheet, velocity, spin));
         kiriTotals totals = Host_Totals(&host, sheet);

@@ -297,7 +297,7 @@ FIGURE(CrumpledSheetSleeps)
     }
 }
 
-/* A sheet on one or two pins gains no energy. Where it falls asleep it is in balance: awake again, it stays. It lies flat
+/* A sheet on one or two pins, clamps or held frames gains no energy. Where it falls asleep it is in balance: awake again, it stays. It lies flat
    at first, so none stands on its pins. Some swing for long. */
 FIGURE(PinnedSheetsAreLeftAlone)
 {
@@ -316,8 +316,17 @@ FIGURE(PinnedSheetsAreLeftAlone)
         Host_Start(&host);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 0.8f, 0.6f, 12, 12);
         for (int i = 0; i <= k % 2; ++i) {
-            float u = (float)RandomBetween(&seed, 0.1, 0.7), v = (float)RandomBetween(&seed, 0.1, 0.5);
-            Host_Pin(&host, sheet, u, v, u, v, 0.0f);
+            const float at[2] = { (float)RandomBetween(&seed, 0.1, 0.7), (float)RandomBetween(&seed, 0.1, 0.5) };
+            if (k % 3 == 0) {
+                const float to[2] = { (float)RandomBetween(&seed, 0.1, 0.7), (float)RandomBetween(&seed, 0.1, 0.5) };
+                World_Clamp(host.world, sheet, at, to);
+            } else if (k % 4 == 1) {
+                kiriFrame frame = World_PointState(host.world, sheet, at).frame;
+                kiriFrameState state = World_FrameState(host.world, frame);
+                OK(kiriFrame_Hold(host.world, frame, state.position, state.rotation));
+            } else {
+                Host_Pin(&host, sheet, at[0], at[1], at[0], at[1], 0.0f);
+            }
         }
         double most = World_Energy(host.world, sheet) + 0.01 * 9.81 * Host_Totals(&host, sheet).mass;
         for (int tick = 0; tick < 1200 && IsAwake(&host, sheet); ++tick) {

@@ -212,7 +212,9 @@ TEST(SurfaceIsTheBlend)
         def.fadeTime = 0.0f;
         def.material.detail = 0;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 13, 13);
-        World_Clamp(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f });
+        kiriFrame frame = World_PointState(host.world, sheet, (float[]){ 0.1f, 0.9f }).frame;
+        kiriFrameState state = World_FrameState(host.world, frame);
+        OK(kiriFrame_Hold(host.world, frame, state.position, state.rotation));
         for (int tick = 0; tick < 20; ++tick) {
             if (tick % 4 == 0) {
                 CutAtRandom(&host, sheet, &random);

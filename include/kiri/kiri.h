@@ -710,7 +710,7 @@ typedef struct kiriFrameState {
 KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
                                         int32_t* count);
 
-/* Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
+/* Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
    the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 

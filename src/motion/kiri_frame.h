@@ -75,8 +75,6 @@ typedef struct kiriFrameData {
     kiriMat3 heldRotation; /* rotation at the end of the step */
     kiriVec3 goalPosition; /* the host's position for the end of the tick */
     kiriMat3 goalRotation; /* the host's rotation for the end of the tick */
-    kiriVec3 heldOff; /* m: see sheet/kiri_pin.h; */
-    bool isOffKnown;
     kiriReaction reaction; /* action of the hold on the sheet, about the held site */
     kiriWrench bore;       /* mean of the reaction in the last tick that moved the sheet; zero if the frame was free */
 } kiriFrameData;

@@ -336,7 +336,6 @@ static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
             share->plastic = from->plastic;
             memcpy(share->reactions, from->reactions, sizeof(share->reactions));
             share->bore = from->bore;
-            share->off = from->off;
         }
     }
 }

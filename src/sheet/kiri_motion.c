@@ -315,7 +315,6 @@ int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, cons
                                fade / (fade + dt), mayTouch);
     }
     kiriPins_FadeOffsets(sheet, dt, time);
-    kiriFollow_Begin(sheet, dt);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     kiriPins_BeginReactions(sheet);
     kiriTouches_WriteRows(sheet);

@@ -83,7 +83,7 @@ static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int6
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
            kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
-           kiriArray_Reserve(sheet->memory, &sheet->drawnPins, pins) &&
+           kiriArray_Reserve(sheet->memory, &sheet->drawnPins, pins + shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
            (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
@@ -283,10 +283,8 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     kiriClamp_Shape(&row, &shape, frame->site.at);
     row.pose.A = RotationAfter(pin, to);
     row.start.A = RotationAfter(pin, from);
-    kiriVec3 end = HeldPoint(&line, TargetAfter(pin, to), &row.pose.A, row.foot);
-    kiriVec3 start = HeldPoint(&line, TargetAfter(pin, from), &row.start.A, row.foot);
-    row.pose.x = IntoPlane(sheet, frame, kiriVec3_Add(end, pinned->off));
-    row.start.x = IntoPlane(sheet, frame, kiriVec3_Add(start, pinned->off));
+    row.pose.x = IntoPlane(sheet, frame, HeldPoint(&line, TargetAfter(pin, to), &row.pose.A, row.foot));
+    row.start.x = IntoPlane(sheet, frame, HeldPoint(&line, TargetAfter(pin, from), &row.start.A, row.foot));
     memcpy(row.offset, pinned->offset, sizeof(row.offset));
     row.plastic = pinned->plastic;
     return row;
@@ -409,7 +407,6 @@ void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStr
         if (older != NULL) {
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
             pinned->bore = older->bore;
-            pinned->off = older->off;
         }
         if (keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             KeepStrains(sheet, old, older, pinned);
@@ -529,11 +526,7 @@ void kiriPins_ClearReactions(kiriSheetData* sheet)
     kiriPins_TakeReactions(sheet, 1.0);
 }
 
-#define SETTLING 0.05  /* s: time in which targets move to the visible surface */
-#define CLAMP_RATE 0.2 /* times the rate of pins: a clamp bends the surface that it measures */
-#define LEAST 1e-5     /* fraction of the longer side: smaller changes are ignored */
-
-/* ---- Offsets of held points from the visible surface ---- */
+/* ---- Drawn points ---- */
 
 /* Returns the share of a frame in the position of a point. */
 static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
@@ -550,20 +543,6 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
     return sum;
 }
 
-/* Finds the visible position of a point of a frame. Returns false if the frame has no share there: outside, or on the
-   other lip of a cut. */
-static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3* seen)
-{
-    kiriPointPlace place;
-    if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
-        return false;
-    }
-    *seen = kiriPoint_Position(sheet, &place);
-    return true;
-}
-
-/* ---- Drawn points ---- */
-
 #define DRAW_ROUNDS 64  /* over pins that share frames */
 #define DRAWN 1e-6      /* of the longer side: nearer to its pin a point is drawn as it is */
 #define DRAW_REACH 0.5  /* of the side of a region: farther points are moved in part, and from twice as far not at all */
@@ -579,19 +558,15 @@ static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
     return sum;
 }
 
-/* Lists a pinned point that is drawn at its pin, unless its pin is soft. */
-static void ListDrawn(kiriSheetData* sheet, int32_t index, double dt)
+/* Lists a point of a frame that is drawn at its target. */
+static void ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3 target)
 {
-    const kiriPinData* pin = &sheet->pins.data[index];
-    const int32_t frame = sheet->layout.pinFrame.data[index];
     kiriPointPlace place;
-    bool isStiff = 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet) && IsAwakePoint(sheet, index);
-    if (!isStiff || !kiriPoint_Find(sheet, pin->at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
-        return;
+    if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
+        return; /* outside, or on the other lip of a cut */
     }
     const kiriVec3 normal = sheet->settings.mechanics.axes.d;
-    kiriVec3 skin = kiriPoint_Position(sheet, &place), given = kiriVec3_Scale(-dt * dt, pin->bore.force);
-    kiriVec3 way = kiriVec3_Sub(kiriVec3_Add(pin->target, kiriMat3_Mul(pin->anchor.give, given)), skin);
+    kiriVec3 skin = kiriPoint_Position(sheet, &place), way = kiriVec3_Sub(target, skin);
     way = sheet->settings.mechanics.planar ? kiriVec3_Across(way, normal) : way;
     double reach = DRAW_REACH * sqrt(sheet->frames.data[frame].area);
     double part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
@@ -606,6 +581,32 @@ static void ListDrawn(kiriSheetData* sheet, int32_t index, double dt)
     }
     KIRI_ASSERT(drawn.square > 0.0);
     KIRI_NEXT(sheet->drawnPins) = drawn;
+}
+
+/* Lists the points of awake pieces: those with stiff pins, and the middle of each frame's share of a line. */
+static void ListAllDrawn(kiriSheetData* sheet, double dt)
+{
+    sheet->drawnPins.count = 0;
+    KIRI_EACH_INDEX(i, sheet->pins) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        if (IsAwakePoint(sheet, i) && 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet)) {
+            kiriVec3 given = kiriMat3_Mul(pin->anchor.give, kiriVec3_Scale(-dt * dt, pin->bore.force));
+            ListDrawn(sheet, sheet->layout.pinFrame.data[i], pin->at, kiriVec3_Add(pin->target, given));
+        }
+    }
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
+        const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+        if (kiriSheet_Moves(sheet, pinned->share.frame)) {
+            /* The line may be on an edge of the sheet: a little closer to the site is inside the material. */
+            RestLine line = RestLineOf(sheet, pin);
+            kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
+            kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
+            double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
+            at = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
+            ListDrawn(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, at),
+                      HeldPoint(&line, pin->target, &pin->rotation, at));
+        }
+    }
 }
 
 /* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
@@ -633,10 +634,7 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     if (surface->isWritten || !kiriSurface_HasDetail(surface) || sheet->pins.count == 0 || sheet->sewn.count > 0) {
         return;
     }
-    sheet->drawnPins.count = 0;
-    KIRI_EACH_INDEX(i, sheet->pins) {
-        ListDrawn(sheet, i, dt);
-    }
+    ListAllDrawn(sheet, dt);
     KIRI_EACH(kiriVec3, shift, surface->detail.shifts) {
         *shift = (kiriVec3){ 0 };
     }
@@ -656,143 +654,19 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     }
 }
 
-/* Moves an offset by a fraction dt / SETTLING towards the measured one; at once if it is unknown. */
-static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured, bool isKnown, double dt)
-{
-    kiriVec3 change = kiriVec3_Sub(measured, *off);
-    if (!isKnown) {
-        *off = measured;
-    } else if (kiriVec3_Length(change) > LEAST * kiriSheet_Extent(sheet)) {
-        *off = kiriVec3_AddScaled(*off, dt < SETTLING ? dt / SETTLING : 1.0, change);
-    }
-}
-
-/* Returns true if both shares hold the same piece for the same clamp. */
-static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
-{
-    const int32_t* pieces = sheet->layout.framePiece.data;
-    return a->pin == b->pin && pieces[a->share.frame] == pieces[b->share.frame];
-}
-
-/* Finds the mean offset along the line between the frames of a piece and its visible surface. */
-static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
-{
-    const kiriPinShares* shares = &sheet->layout.pinShares;
-    const kiriPinData* pin = &sheet->pins.data[shares->data[first].pin];
-    RestLine line = RestLineOf(sheet, pin);
-    kiriVec3 sum = { 0 }, seen;
-    double length = 0.0;
-    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
-        const kiriPinShare* pinned = &shares->data[k];
-        if (!IsSameHold(sheet, &shares->data[first], pinned)) {
-            continue;
-        }
-        /* The line may be on an edge of the sheet, so measure a little closer to the site, inside the material. */
-        kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
-        kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
-        double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
-        kiriVec2 beside = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
-        if (FindSeen(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, beside), &seen)) {
-            kiriVec3 missing = kiriVec3_Sub(HeldPoint(&line, pin->target, &pin->rotation, at), seen);
-            sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
-            length += pinned->share.length;
-        }
-    }
-    *off = length > 0.0 ? kiriVec3_Scale(1.0 / length, sum) : sum;
-    return length > 0.0;
-}
-
-/* Returns true if a pin, another line or the host holds the piece too. */
-static bool IsHeldElsewhere(const kiriSheetData* sheet, const kiriPinShare* hold)
-{
-    const int32_t* pieces = sheet->layout.framePiece.data;
-    int32_t piece = pieces[hold->share.frame];
-    bool isHeld = false;
-    KIRI_EACH_INDEX_WHILE(!isHeld, i, sheet->pins) {
-        isHeld = sheet->pins.data[i].type == KIRI_PIN_POINT && pieces[sheet->layout.pinFrame.data[i]] == piece;
-    }
-    KIRI_EACH_WHILE(!isHeld, const kiriPinShare, other, sheet->layout.pinShares) {
-        isHeld = other->pin != hold->pin && pieces[other->share.frame] == piece;
-    }
-    KIRI_EACH_INDEX_WHILE(!isHeld, f, sheet->frames) {
-        isHeld = sheet->frames.data[f].held && pieces[f] == piece;
-    }
-    return isHeld;
-}
-
-/* Moves all shares of a piece by one offset. Separate offsets would bend the line: a sheet that is curled along its
-   clamp is far too stiff, and its surface turns there, which needs larger offsets. No offset if something else holds the
-   piece: the clamp would pull against that until the visible edge is on the line, and a strip between two clamps would
-   be under tension. */
-static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
-{
-    kiriPinShares* shares = &sheet->layout.pinShares;
-    kiriVec3 off = { 0 };
-    if (!IsHeldElsewhere(sheet, &shares->data[first]) && !FindHoldOff(sheet, first, &off)) {
-        return;
-    }
-    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
-        if (IsSameHold(sheet, &shares->data[first], &shares->data[k])) {
-            Settle(sheet, &shares->data[k].off, off, true, CLAMP_RATE * dt);
-        }
-    }
-}
-
-static void DropOffs(kiriSheetData* sheet)
-{
-    const kiriVec3 none = { 0 };
-    KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
-        share->off = none;
-    }
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        int32_t f = *at;
-        sheet->frames.data[f].heldOff = none;
-        sheet->frames.data[f].isOffKnown = false;
-    }
-}
-
-void kiriFollow_Begin(kiriSheetData* sheet, double dt)
-{
-    if (sheet->settings.skinning == KIRI_SKINNING_LINEAR) {
-        DropOffs(sheet);
-        return;
-    }
-    KIRI_EACH_INDEX(k, sheet->layout.pinShares) {
-        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
-        bool isFirst =
-            sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP && kiriSheet_Moves(sheet, pinned->share.frame);
-        for (int32_t i = k - 1; isFirst && i >= 0 && pinned[i - k].pin == pinned->pin; --i) {
-            isFirst = !IsSameHold(sheet, &pinned[i - k], pinned);
-        }
-        if (isFirst) {
-            SettleClamp(sheet, k, dt);
-        }
-    }
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        kiriFrameData* frame = &sheet->frames.data[*at];
-        kiriVec3 seen;
-        if (frame->held && FindSeen(sheet, *at, kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
-            kiriVec3 own = kiriFrame_Carry(frame, frame->site.at);
-            Settle(sheet, &frame->heldOff, kiriVec3_Sub(own, seen), frame->isOffKnown, dt);
-            frame->isOffKnown = true;
-        }
-    }
-}
-
 /* ---- Steps ---- */
 
 /* Moves a held frame by 1 / left of the remaining way; the last step ends at the goal. */
 static void MoveHeld(kiriFrameData* frame, int32_t left)
 {
     KIRI_ASSERT(frame->held && left >= 1);
-    kiriVec3 goal = kiriVec3_Add(frame->goalPosition, frame->heldOff);
     if (left == 1) {
-        frame->heldPosition = goal;
+        frame->heldPosition = frame->goalPosition;
         frame->heldRotation = frame->goalRotation;
         return;
     }
     double part = 1.0 / left;
-    kiriVec3 way = kiriVec3_Sub(goal, frame->heldPosition);
+    kiriVec3 way = kiriVec3_Sub(frame->goalPosition, frame->heldPosition);
     frame->heldPosition = kiriVec3_AddScaled(frame->heldPosition, part, way);
     if (!kiriMat3_Equal(&frame->heldRotation, &frame->goalRotation)) {
         kiriMat3 mean = kiriMat3_Scale(1.0 - part, &frame->heldRotation);

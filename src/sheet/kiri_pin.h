@@ -60,30 +60,23 @@ static inline double kiriPins_Stiffness(const kiriSheetData* sheet)
     return 10.0 * sheet->settings.material.youngsModulus * sheet->settings.material.thickness;
 }
 
-/* Draws pinned points at their pins. The skin blends several frames, smooth patches bend, and pins yield. So patches of the
-   frames at a pin get one offset each of the drawn surface (kiriDetail), which fades with their weights. Motion, contacts
-   and blades do not see it. No offset where the skin is farther from its pin than a region is wide, where a pin is softer
-   than a tenth of kiriPins_Stiffness (its spring is seen longer), and in sheets with seams, whose lips move likewise. */
+/* Draws points and lines where pins hold them. The skin blends several frames, their patches bend less than the sheet at a
+   clamp, and pins yield. So patches of the frames at a pin get one offset each of the drawn surface (kiriDetail), which
+   fades with their weights. Motion, contacts and blades do not see it. No offset where the skin is farther from its pin
+   than a region is wide, where a pin is softer than a tenth of kiriPins_Stiffness (its spring is seen longer), and in
+   sheets with seams, whose lips move likewise. */
 void kiriPins_Draw(kiriSheetData* sheet, double dt);
 
 /* Targets of pins and held frames in the steps of a tick.
 
    Targets of the host are interpolated linearly over the steps.
 
-   A clamp or held frame holds the visible surface. A smooth surface (KIRI_SKINNING_SMOOTH) is offset from the point of a
-   single frame. So the target of a held frame is shifted by the offset between the frame's point and the surface of the
-   last tick. A clamp shifts its pose by the mean offset over all shares of a piece: separate offsets would bend the
-   line and curl the sheet. The offset converges in some ticks; then the sheet may sleep. A hinge needs no offset: it
-   turns freely, so the surface does not bend there and lies on the line. A pin has none: the sheet turns about it, and
-   targets that follow the last tick would give it energy. kiriPins_Draw draws its point at the pin.
+   Pins hold points of frames: targets that follow the drawn surface of the last tick would do work on the sheet.
 
    An obstacle with mass yields to a pin. The host applies the impulses of the whole tick at once and then moves the
    obstacle; the model here does the same. W is the velocity of the target per impulse, and J the impulse of the pin so
    far in the tick. At time t of the tick the target has moved by t W J, and the force F of a step h moves it by
    t h W F. */
-
-/* Prepares the targets at the start of a tick of dt. */
-void kiriFollow_Begin(kiriSheetData* sheet, double dt);
 
 /* Sets the targets before step i of n, of h seconds. */
 void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h);

@@ -669,7 +669,7 @@ static void ListDetail(kiriSheetData* sheet)
             }
         }
         KIRI_EACH(const kiriPinData, pin, sheet->pins) {
-            MarkHeld(sheet, pin->at, pin->to, 1.0, pin->type == KIRI_PIN_POINT && sheet->sewn.count == 0 ? -1.0f : 0.0f);
+            MarkHeld(sheet, pin->at, pin->to, 1.0, sheet->sewn.count == 0 ? -1.0f : 0.0f);
         }
         KIRI_EACH(const kiriSewnLine, line, sheet->sewn) {
             MarkHeld(sheet, line->from, line->to, SEWN, -1.0f);

@@ -101,7 +101,6 @@ typedef struct kiriPinShare {
     double offset[KIRI_CLAMP_STRAINS]; /* clamp: strain offsets, see kiri_strain.h */
     kiriPlastic plastic;               /* clamp */
     kiriReaction reactions[2];         /* clamp: the first one; hinge: one for each of its two springs */
-    kiriVec3 off;                      /* m; clamp: surface offset, see kiri_pin.h */
     kiriWrench bore;                   /* its part of the wrench of the pin */
 } kiriPinShare;
 

@@ -653,7 +653,8 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
                   (!kiriSettings_Yield(&sheet->settings) || isPlastic) &&
                   sheet->plastics.links.count == (isPlastic ? links : 0) &&
                   sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0) &&
-                  sheet->pinRows.capacity >= pins && sheet->drawnPins.capacity >= sheet->pins.count && sheet->clampRows.capacity >= shares;
+                  sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
+                  sheet->drawnPins.capacity >= sheet->pins.count + shares;
     KIRI_EACH_WHILE(isFine, const kiriSeveredLink, link, sheet->layout.severed) {
         isFine = link->link < links;
     }

@@ -18,7 +18,7 @@ typedef struct kiriDetailEdge {
 /* A vertex that the sweeps move. */
 typedef struct kiriDetailVertex {
     int32_t vertex;
-    float leash; /* m: longest offset; 0: held by a line or frame; below 0: by a seam or point */
+    float leash; /* m: longest offset; 0: held by a frame; below 0: by a seam or pin */
     float share; /* 1 over the number of its edges; negative on the outline and on lips */
 } kiriDetailVertex;
 
@@ -26,7 +26,7 @@ typedef struct kiriDetailVertex {
 enum { KIRI_DETAIL_COLORS = 32, KIRI_MOST_DETAIL = 16 /* sweeps */ };
 
 typedef struct kiriDetail {
-    int32_t sweeps;            /* a tick; 0: offsets are of drawn lips and pinned points alone */
+    int32_t sweeps;            /* a tick; 0: offsets are of drawn lips and of pins alone */
     bool isHeld;               /* it has, or had, seams or pins. Without both all arrays are empty */
     KIRI_ARRAY(float) offsets; /* m: from the skin to the drawn position, 3 a vertex */
     KIRI_ARRAY(float) drawn;   /* drawn positions, 3 a vertex, from where the skin's are */

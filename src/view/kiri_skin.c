@@ -69,14 +69,18 @@ static void BendCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFr
 }
 
 /* Stretches a patch about the site of its frame as its neighbors lie farther than at rest; at most so far that it cannot
-   turn over. */
-static void StretchCarrier(kiriCarrier* carrier, const kiriBend* bend, kiriVec2 site)
+   turn over. Towards a free border it does not stretch, by a weight of 100: nothing pulls there, and the frame of a strip
+   that hangs is as far down as its end should be. */
+static void StretchCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFrameData* frame)
 {
-    const double most = 0.9;
-    kiriTensor by = kiriTensor_Solve(bend->matrix, bend->longerBy);
+    const double most = 0.9, free = 100.0;
+    const kiriTensor* links = &bend->matrix;
+    kiriVec2 s = kiriVec2_Scale(sqrt(free * (links->uu + links->vv)) / bend->width, bend->open);
+    const kiriTensor matrix = { links->uu + s.x * s.x, links->uv + s.x * s.y, links->vv + s.y * s.y };
+    kiriTensor by = kiriTensor_Solve(matrix, bend->longerBy);
     double size = sqrt(by.uu * by.uu + 2.0 * by.uv * by.uv + by.vv * by.vv), part = size > most ? most / size : 1.0;
     kiriVec3 u = carrier->u, v = carrier->v;
-    kiriVec2 off = kiriVec2_Scale(part, kiriVec2_Sub(carrier->center, site));
+    kiriVec2 off = kiriVec2_Scale(part, kiriVec2_Sub(carrier->center, frame->site.at));
     carrier->u = kiriVec3_AddScaled(kiriVec3_AddScaled(u, part * by.uu, u), part * by.uv, v);
     carrier->v = kiriVec3_AddScaled(kiriVec3_AddScaled(v, part * by.uv, u), part * by.vv, v);
     carrier->x = kiriVec3_AddScaled(carrier->x, by.uu * off.x + by.uv * off.y, u);
@@ -121,6 +125,8 @@ void kiriCarriers_Fit(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDat
             bend->turnBy[1] = kiriVec2_AddScaled(bend->turnBy[1], turns[k].y, ws);
             bend->longerBy[0] = kiriVec2_AddScaled(bend->longerBy[0], longer.x, ws);
             bend->longerBy[1] = kiriVec2_AddScaled(bend->longerBy[1], longer.y, ws);
+            bend->width += link->width;
+            bend->open = kiriVec2_AddScaled(bend->open, k == 0 ? -link->width : link->width, link->normal);
         }
     }
     KIRI_TIMES(n, ItemCount(some, count)) {
@@ -131,7 +137,7 @@ void kiriCarriers_Fit(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDat
             matrix->uu += least;
             matrix->vv += least;
             BendCarrier(&carriers[i], &bends[i], &frames[i]);
-            StretchCarrier(&carriers[i], &bends[i], frames[i].site.at);
+            StretchCarrier(&carriers[i], &bends[i], &frames[i]);
         }
     }
 }

@@ -22,6 +22,8 @@ typedef struct kiriBend {
     kiriTensor matrix;   /* sum of w s s^T; s: way to the neighbor, w: width of the link */
     kiriVec2 turnBy[2];  /* sum of w t s^T; t: turn of the director over s */
     kiriVec2 longerBy[2]; /* the same; t: how much longer s is */
+    double width;         /* m: of the links, summed */
+    kiriVec2 open;        /* m: of the free border: normal times length, integrated; 0 inside the sheet */
 } kiriBend;
 
 /* Writes flat patches, one a frame. Here and below only `some` frames are written, unless that is null. */

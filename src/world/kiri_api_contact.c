@@ -261,8 +261,7 @@ static kiriPinData MakePin(int32_t type)
 static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
 {
     kiriResult result = kiriWorld_ReserveIds(world, &world->pinIds, 1);
-    bool isPoint = made->type == KIRI_PIN_POINT;
-    if (result == KIRI_OK && ((isPoint && !kiriSurface_ReserveHeld(&data->seen.surface, &data->shown)) ||
+    if (result == KIRI_OK && (!kiriSurface_ReserveHeld(&data->seen.surface, &data->shown) ||
                               !kiriPins_Add(data, made, frame))) {
         result = KIRI_ERROR_MEMORY;
     }
@@ -271,9 +270,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
         *pin = kiriPool_Add(&world->pinIds, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
-        if (isPoint) {
-            kiriSurface_SetHeld(&data->seen.surface);
-        }
+        kiriSurface_SetHeld(&data->seen.surface);
         kiriSheet_WakePin(data, data->pins.count - 1);
     }
     return result;

@@ -319,7 +319,6 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
         data->held = 1;
         data->heldPosition = kiriFrame_Carry(data, data->site.at);
         data->heldRotation = kiriMat3_Rotation(data->A);
-        data->isOffKnown = false;
     }
     kiriSheet_WakeFrame(call->sheet, call->index);
     KIRI_RETURN(KIRI_OK);
@@ -364,7 +363,6 @@ static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool
     TurnColumns(R, &frame->history.turnGain);
     TurnColumns(R, &frame->history.turnLag);
     TurnColumns(R, &frame->history.turnPull);
-    TurnVector(R, &frame->heldOff);
 }
 
 /* ---- What holds it ---- */
@@ -421,7 +419,6 @@ static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
         TurnWrench(R, &pin->bore);
     }
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
-        TurnVector(R, &share->off);
         TurnReaction(R, &share->reactions[0]);
         TurnReaction(R, &share->reactions[1]);
         TurnWrench(R, &share->bore);
