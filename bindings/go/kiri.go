@@ -2641,8 +2641,8 @@ again:
 	return things[Frame](s.World, frames[:answer.count]), nil
 }
 
-// Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
-// the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+// Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
+// next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
 func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
 	if err := f.World.check(); err != nil {
 		return err

@@ -1587,9 +1587,8 @@ export class Frame {
     /** Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a
      *  cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
     destroyPiece(): ResultCode;
-    /** Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
-     *  in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through
-     *  obstacles. */
+    /** Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
+     *  next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles. */
     hold(position?: ArrayLike<number> | null, rotation?: ArrayLike<number> | null): ResultCode;
     /** Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
      *  over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free

@@ -1517,8 +1517,8 @@ function Sheet:getFrames()
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame")
 end
 
---- Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
---- in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+--- Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
+--- next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
 function Frame:hold(position, rotation)
     local world = self.world
     local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))

@@ -1418,9 +1418,9 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as
-        /// above) in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves
-        /// through obstacles.</summary>
+        /// <summary>Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
+        /// the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through
+        /// obstacles.</summary>
         public void Hold(Float3? position = null, Float9? rotation = null)
         {
             Float3 positionValue = position.GetValueOrDefault();

@@ -1142,8 +1142,8 @@ function Blade:finish() end
 ---@return kiri.Frame[]
 function Sheet:getFrames() end
 
---- Holds the frame: its visible rest point moves evenly to `position` (m, world) with `rotation` (columns as above)
---- in the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+--- Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
+--- next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
 ---@param position? number[]|ffi.cdata*
 ---@param rotation? number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks

@@ -1371,9 +1371,9 @@ unsafe extern "C" {
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Holds the frame: its visible rest point moves evenly to \`position\` (m, world) with
-    /// \`rotation\` (columns as above) in the next tick, and stays. Null, null: frees it. Material
-    /// that held frames mostly carry moves through obstacles.
+    /// Holds the frame: its rest point moves evenly to \`position\` (m, world) with \`rotation\`
+    /// (columns as above) in the next tick, and stays. Null, null: frees it. Material that held
+    /// frames mostly carry moves through obstacles.
     pub fn kiriFrame_Hold(world: *mut kiriWorld, frame: kiriFrame, position: *const f32, rotation: *const f32) -> kiriResult;
     /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
     /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and

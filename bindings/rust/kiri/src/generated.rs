@@ -3337,9 +3337,9 @@ impl Frame {
         Ok(Status::of(result))
     }
 
-    /// Holds the frame: its visible rest point moves evenly to position (m, world) with rotation
-    /// (columns as above) in the next tick, and stays. Null, null: frees it. Material that held
-    /// frames mostly carry moves through obstacles.
+    /// Holds the frame: its rest point moves evenly to position (m, world) with rotation (columns
+    /// as above) in the next tick, and stays. Null, null: frees it. Material that held frames
+    /// mostly carry moves through obstacles.
     pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world, "Frame::hold")?;
