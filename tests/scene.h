@@ -196,7 +196,7 @@ static inline void Scene_Release(Scene* scene)
 
 static inline double Scene_Area(const Scene* scene)
 {
-    return 0.5 * (double)kiriMesh_DoubledArea(&scene->mesh) * scene->mesh.step * scene->mesh.step;
+    return kiriMesh_Area(&scene->mesh);
 }
 
 static inline int32_t Scene_Cell(const Scene* scene, double u, double v)

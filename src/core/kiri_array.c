@@ -218,13 +218,8 @@ static int32_t TakeRoom(kiriSpans* spans, kiriMemory* memory, void* array, size_
     }
     first = kiriArray_GetHeader(array).count;
     int64_t need = first + ((int64_t)1 << size);
-    if (!kiriArray_Grow(memory, array, need, itemBytes)) {
-        return KIRI_NONE;
-    }
-    kiriArrayHeader header = kiriArray_GetHeader(array);
-    header.count = (int32_t)need;
-    kiriArray_SetHeader(array, header);
-    return first;
+    bool ok = kiriArrays_SetCount(memory, need, (const kiriAnyArray[]){ { array, itemBytes }, { NULL, 0 } });
+    return ok ? first : KIRI_NONE;
 }
 
 static void GiveRoom(kiriSpans* spans, void* array, size_t itemBytes, int32_t first, int size)

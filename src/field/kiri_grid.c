@@ -125,13 +125,9 @@ static int32_t TakeUnusedItem(kiriMemory* memory, void* array, size_t itemBytes,
         return unused->data[--unused->count];
     }
     int64_t need = (int64_t)kiriArray_GetHeader(array).count + 1;
-    if (!kiriArray_Grow(memory, array, need, itemBytes) || !kiriArray_Reserve(memory, unused, need)) {
-        return KIRI_NONE;
-    }
-    kiriArrayHeader header = kiriArray_GetHeader(array);
-    header.count = (int32_t)need;
-    kiriArray_SetHeader(array, header);
-    return header.count - 1;
+    bool ok = kiriArray_Reserve(memory, unused, need) &&
+              kiriArrays_SetCount(memory, need, (const kiriAnyArray[]){ { array, itemBytes }, { NULL, 0 } });
+    return ok ? (int32_t)need - 1 : KIRI_NONE;
 }
 
 static void GiveItemBack(kiriIndices* unused, int32_t index)

@@ -88,20 +88,15 @@ void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoin
     }
 }
 
-int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
+double kiriMesh_Area(const kiriMeshData* mesh)
 {
-    int64_t sum = 0;
+    int64_t sum = 0; /* exact */
     KIRI_EACH_INDEX(t, mesh->triangles) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         sum += kiriOrient(c[0], c[1], c[2]);
     }
-    return sum;
-}
-
-double kiriMesh_Area(const kiriMeshData* mesh)
-{
-    return 0.5 * (double)kiriMesh_DoubledArea(mesh) * mesh->step * mesh->step;
+    return 0.5 * (double)sum * mesh->step * mesh->step;
 }
 
 kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)

@@ -243,10 +243,7 @@ bool kiriMesh_FindFan(const kiriMeshData* mesh, int32_t vertex, int32_t* first, 
    and 0 if the fan of the vertex is closed. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex);
 
-/* Returns twice the area, in lattice steps squared. Exact: only splits of slanted outline edges change it. */
-int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);
-
-/* Returns the area, m^2. */
+/* Returns the area, m^2. Only splits of slanted outline edges change it. */
 double kiriMesh_Area(const kiriMeshData* mesh);
 
 /* Write the barycentric coordinates of a vertex, not negative, sum 1: in its source, or in another of the caller's

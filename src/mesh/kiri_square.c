@@ -6,6 +6,10 @@ typedef struct SquareBox {
     int32_t firstColumn, lastColumn, firstRow, lastRow;
 } SquareBox;
 
+#define EACH_IN_BOX(row, column, box)                                                                                  \
+    KIRI_FROM_TO(row, (box).firstRow, (box).lastRow + 1)                                                               \
+    KIRI_FROM_TO(column, (box).firstColumn, (box).lastColumn + 1)
+
 static int64_t CeilDivide(int64_t a, int64_t b)
 {
     return (a + b - 1) / b;
@@ -115,10 +119,8 @@ static int64_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint 
 {
     SquareBox box = BoxOf(squares, corners);
     int64_t count = 0;
-    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
-        for (int32_t column = box.firstColumn; column <= box.lastColumn; ++column) {
-            count += Overlaps(squares, box, column, row, corners);
-        }
+    EACH_IN_BOX(row, column, box) {
+        count += Overlaps(squares, box, column, row, corners);
     }
     return count;
 }
@@ -144,11 +146,9 @@ bool kiriSquares_RunsThroughAll(const kiriSquares* squares, kiriLatticePoint a, 
     SquareBox box = BoxOf(squares, corners);
     bool isThrough = true;
     KIRI_ASSERT(!kiriLattice_IsSame(a, b));
-    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
-        for (int32_t column = box.firstColumn; isThrough && column <= box.lastColumn; ++column) {
-            isThrough = !Overlaps(squares, box, column, row, corners) ||
-                        kiriSquares_RunsThrough(squares, row * squares->columns + column, a, b);
-        }
+    EACH_IN_BOX(row, column, box) {
+        isThrough = isThrough && (!Overlaps(squares, box, column, row, corners) ||
+                                  kiriSquares_RunsThrough(squares, row * squares->columns + column, a, b));
     }
     return isThrough;
 }
@@ -210,12 +210,10 @@ void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLat
 {
     SquareBox box = BoxOf(squares, (const kiriLatticePoint[3]){ a, b, b });
     AddEffort(squares, box);
-    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
-        for (int32_t column = box.firstColumn; column <= box.lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            if (kiriSquares_RunsThrough(squares, square, a, b)) {
-                MarkSquareDirty(squares, square);
-            }
+    EACH_IN_BOX(row, column, box) {
+        int32_t square = row * squares->columns + column;
+        if (kiriSquares_RunsThrough(squares, square, a, b)) {
+            MarkSquareDirty(squares, square);
         }
     }
 }
@@ -278,17 +276,15 @@ void kiriSquares_Reshape(kiriSquares* squares, int32_t triangle, const kiriLatti
     AddToBox(&box, after.firstColumn, after.firstRow);
     AddToBox(&box, after.lastColumn, after.lastRow);
     AddEffort(squares, box);
-    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
-        for (int32_t column = box.firstColumn; column <= box.lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            bool wasIn = was != NULL && Overlaps(squares, before, column, row, was);
-            bool isIn = Overlaps(squares, after, column, row, is);
-            if (wasIn != isIn) {
-                (isIn ? AddNode : RemoveNode)(squares, square, triangle);
-            }
-            if (wasIn || isIn) {
-                MarkSquareDirty(squares, square);
-            }
+    EACH_IN_BOX(row, column, box) {
+        int32_t square = row * squares->columns + column;
+        bool wasIn = was != NULL && Overlaps(squares, before, column, row, was);
+        bool isIn = Overlaps(squares, after, column, row, is);
+        if (wasIn != isIn) {
+            (isIn ? AddNode : RemoveNode)(squares, square, triangle);
+        }
+        if (wasIn || isIn) {
+            MarkSquareDirty(squares, square);
         }
     }
 }

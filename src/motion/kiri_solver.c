@@ -817,7 +817,7 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
     if (!ok || !AddStitchPairs(memory, island, stitches) || !ReserveIsland(solver, bodies, count)) {
         return false;
     }
-    if (island->matrix != NULL && island->size == solver->size && island->frameCount == frames &&
+    if (island->matrix != NULL && island->matrix->size == solver->size && island->matrix->count == frames &&
         island->pairs.count == island->next.count &&
         (island->next.count == 0 || /* one frame */
          memcmp(island->pairs.data, island->next.data, sizeof(kiriPair) * (size_t)island->next.count) == 0)) {
@@ -825,8 +825,6 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
     }
     kiriMatrix_Destroy(island->matrix);
     island->matrix = kiriMatrix_Create(memory, solver->size);
-    island->size = solver->size;
-    island->frameCount = frames;
     if (island->matrix == NULL || !kiriMatrix_Shape(island->matrix, frames, island->next.data, island->next.count)) {
         kiriMatrix_Destroy(island->matrix);
         island->matrix = NULL;

@@ -226,7 +226,6 @@ typedef struct kiriIslandBody {
 /* The matrix of an island. It depends on the pairs alone, so it is kept from tick to tick while they are the same. */
 typedef struct kiriIslandMatrix {
     kiriMatrix* matrix; /* null: none yet */
-    int32_t size, frameCount;
     KIRI_ARRAY(kiriPair) pairs, next; /* of the matrix, and of the island */
 } kiriIslandMatrix;
 

@@ -316,7 +316,8 @@ static void PlaceCorners(const kiriSeamDef* def, kiriSheetData* const sheets[2],
 
 static void FreeSeam(kiriWorld* world, kiriSeamData* seam)
 {
-    kiriWeld_Free(&seam->weld, &world->memory);
+    kiriArray_Release(&world->memory, &seam->weld.nodes);
+    kiriArray_Release(&world->memory, &seam->weld.vertices);
     kiriArray_Release(&world->memory, &seam->corners);
     kiriArray_Release(&world->memory, &seam->stitches);
     kiriArray_Release(&world->memory, &seam->rows);
@@ -975,12 +976,6 @@ bool kiriWelds_Reserve(kiriWorld* world)
         ok = ReserveWeld(world, world->seams.data[i]);
     }
     return ok;
-}
-
-void kiriWeld_Free(kiriWeld* weld, kiriMemory* memory)
-{
-    kiriArray_Release(memory, &weld->nodes);
-    kiriArray_Release(memory, &weld->vertices);
 }
 
 /* ---- In a tick --------------------------------------------------------------------------------------------------- */

@@ -47,8 +47,6 @@ bool kiriWelds_Reserve(kiriWorld* world);
 /* Moves the drawn lips of all seams together, after the skins of all sheets are blended. */
 void kiriWelds_Close(kiriWorld* world);
 
-void kiriWeld_Free(kiriWeld* weld, kiriMemory* memory);
-
 KIRI_C_END
 
 #endif
