@@ -19,6 +19,7 @@ typedef struct kiriReaction {
     kiriWrench gain;    /* impulse of the last step */
     kiriWrench pull;    /* force at the end of the last step; history of this reaction, as in kiriHistory */
     kiriWrench now;     /* force at the end of the current step */
+    kiriVec3 offset;    /* m; spring: of its target, see kiriPins_Keep */
 } kiriReaction;
 
 static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrench* wrench)

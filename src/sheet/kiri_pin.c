@@ -241,9 +241,16 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
     return kiriMat3_RotationFrom(*a, mean);
 }
 
-/* Writes the rows of a hinge. It holds the line by springs along it, as stiff as the material up to the site. Two
-   springs are equivalent, at the points of two equal masses with the line's length, centroid and second moment. */
-static void WriteHinge(kiriSheetData* sheet, kiriPinShare* pinned, double to)
+static kiriPinRow PointRow(const kiriSheetData* sheet, kiriPinData* pin, int32_t frame, double to)
+{
+    kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->anchor.way), pin->reaction.offset);
+    double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness); /* an obstacle yields in series */
+    return (kiriPinRow){ frame, kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness, &pin->reaction };
+}
+
+/* Returns a row of a hinge. It holds the line by springs along it, as stiff as the material up to the site. Two springs
+   are equivalent, k = 0 and 1, at the points of two equal masses with the line's length, centroid and second moment. */
+static kiriPinRow HingeRow(const kiriSheetData* sheet, kiriPinShare* pinned, int k, double to)
 {
     const kiriMaterial* material = &sheet->settings.material;
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
@@ -254,13 +261,10 @@ static void WriteHinge(kiriSheetData* sheet, kiriPinShare* pinned, double to)
     double length = kiriMax(away, shape.least);
     double stiffness = (double)material->youngsModulus * material->thickness * shape.width / length;
     kiriMat3 rotation = RotationAfter(pin, to);
-    kiriVec2 arm = kiriVec2_Scale(sqrt(shape.moment / shape.width), line.along);
-    const kiriVec2 at[2] = { kiriVec2_Sub(shape.centroid, arm), kiriVec2_Add(shape.centroid, arm) };
-    KIRI_TIMES(k, 2) {
-        kiriVec3 target = HeldPoint(&line, TargetAfter(pin, to), &rotation, at[k]);
-        KIRI_NEXT(sheet->pinRows) =
-            (kiriPinRow){ pinned->share.frame, at[k], target, 0.5 * stiffness, &pinned->reactions[k] };
-    }
+    kiriVec2 at = kiriVec2_AddScaled(shape.centroid, (2 * k - 1) * sqrt(shape.moment / shape.width), line.along);
+    kiriReaction* reaction = &pinned->reactions[k];
+    kiriVec3 target = kiriVec3_Add(HeldPoint(&line, TargetAfter(pin, to), &rotation, at), reaction->offset);
+    return (kiriPinRow){ pinned->share.frame, at, target, 0.5 * stiffness, reaction };
 }
 
 /* Projects a point into the plane of a planar sheet. */
@@ -321,13 +325,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     sheet->pinRows.count = sheet->clampRows.count = 0;
     KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
-            /* A yielding obstacle is a second spring in series. */
-            kiriPinData* pin = &sheet->pins.data[i];
-            kiriVec3 target = kiriVec3_Add(TargetAfter(pin, to), pin->anchor.way);
-            double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
-            KIRI_NEXT(sheet->pinRows) = (kiriPinRow){ sheet->layout.pinFrame.data[i],
-                                                      kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness,
-                                                      &pin->reaction };
+            KIRI_NEXT(sheet->pinRows) = PointRow(sheet, &sheet->pins.data[i], sheet->layout.pinFrame.data[i], to);
         }
     }
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -335,7 +333,9 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             continue;
         }
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE) {
-            WriteHinge(sheet, pinned, to);
+            KIRI_TIMES(k, 2) {
+                KIRI_NEXT(sheet->pinRows) = HingeRow(sheet, pinned, k, to);
+            }
         } else {
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
             kiriClampRow* row = &KIRI_NEXT(sheet->clampRows);
@@ -375,6 +375,11 @@ static const kiriPinShare* FindPinnedBeside(const kiriSheetData* sheet, const ki
     return found;
 }
 
+static const kiriFrameData* FrameBefore(const kiriSheetData* sheet, int32_t frame)
+{
+    return kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame);
+}
+
 static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const kiriPinShare* older, kiriPinShare* pinned)
 {
     int32_t frame = pinned->share.frame;
@@ -383,8 +388,7 @@ static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const ki
     MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 0.0, strain);
     MeasureClamp(sheet, pinned, &sheet->frames.data[frame], 1.0, turned);
     if (older != NULL) {
-        MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
-                     older->offset[KIRI_PLANE_BENDING], was);
+        MeasureClamp(sheet, older, FrameBefore(sheet, frame), older->offset[KIRI_PLANE_BENDING], was);
     }
     kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
     KIRI_CLEAR(&pinned->plastic);
@@ -397,11 +401,25 @@ static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const ki
     }
 }
 
-void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStrains)
+/* Keeps the pull of a spring on the point of a frame, or of none (null): without pull. */
+static void KeepPull(const kiriSheetData* sheet, kiriPinRow row, const kiriFrameData* older)
 {
+    kiriVec3 is = kiriFrame_Carry(&sheet->frames.data[row.frame], row.at);
+    kiriVec3 was = older != NULL ? kiriFrame_Carry(older, row.at) : row.target;
+    row.reaction->offset = kiriVec3_Add(row.reaction->offset, kiriVec3_Sub(is, was));
+}
+
+void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old, bool keepsStrains)
+{
+    KIRI_EACH_INDEX_WHILE(keepsStrains, i, sheet->pins) {
+        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
+            kiriPinRow row = PointRow(sheet, &sheet->pins.data[i], sheet->layout.pinFrame.data[i], 0.0);
+            KeepPull(sheet, row, FrameBefore(sheet, old->pinFrame.data[i]));
+        }
+    }
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
         const kiriPinShare* older = NULL;
-        KIRI_EACH_WHILE(older == NULL, const kiriPinShare, share, *old) {
+        KIRI_EACH_WHILE(older == NULL, const kiriPinShare, share, old->pinShares) {
             older = share->pin == pinned->pin && share->share.frame == pinned->share.frame ? share : NULL;
         }
         if (older != NULL) {
@@ -409,19 +427,35 @@ void kiriPins_Keep(kiriSheetData* sheet, const kiriPinShares* old, bool keepsStr
             pinned->bore = older->bore;
         }
         if (keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
-            KeepStrains(sheet, old, older, pinned);
+            KeepStrains(sheet, &old->pinShares, older, pinned);
+        }
+        KIRI_TIMES_WHILE(keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE, k, 2) {
+            KeepPull(sheet, HingeRow(sheet, pinned, k, 0.0), older != NULL ? FrameBefore(sheet, pinned->share.frame) : NULL);
         }
     }
+}
+
+static void FadeOffset(kiriReaction* reaction, double keep)
+{
+    bool isLeft = kiriVec3_Length(reaction->offset) > 1e-12;
+    reaction->offset = kiriVec3_Scale(isLeft ? keep : 0.0, reaction->offset);
 }
 
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
 {
     double keep = time / (time + dt);
+    KIRI_EACH_INDEX(i, sheet->pins) {
+        if (IsAwakePoint(sheet, i)) {
+            FadeOffset(&sheet->pins.data[i].reaction, keep);
+        }
+    }
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
         bool isAwake = kiriSheet_Moves(sheet, share->share.frame);
         if (isAwake) {
             kiriStrainOffset_Fade(share->offset, sheet->plastics.isKept ? &share->plastic : NULL, KIRI_CLAMP_STRAINS,
                                   keep);
+            FadeOffset(&share->reactions[0], keep);
+            FadeOffset(&share->reactions[1], keep);
         }
     }
 }

@@ -851,7 +851,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     u->next = layout;
     kiriPieces_Keep(sheet, &u->next);
     kiriPins_WriteLinkParts(sheet);
-    kiriPins_Keep(sheet, &u->next.pinShares, keepsStrains);
+    kiriPins_Keep(sheet, &u->next, keepsStrains);
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
     kiriView_Resize(sheet, sheet->frames.count);

@@ -377,6 +377,7 @@ static void TurnReaction(const kiriMat3* R, kiriReaction* reaction)
 {
     TurnWrench(R, &reaction->gain);
     TurnWrench(R, &reaction->pull);
+    TurnVector(R, &reaction->offset);
 }
 
 static double SquareApart(kiriVec3 a, kiriVec3 b)
