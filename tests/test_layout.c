@@ -236,7 +236,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     Host_Stop(&host);
     double pull = force[0] / (E * h * (double)width * 0.01);
     print_message("%d frames, skinning %d: sag %.4f, force %.4f\n", count, skinning, -low / sag, pull);
-    assert_true(fabs(-low / sag - 1.0) < (count == 3 ? 0.05 : 0.03));
+    assert_true(fabs(-low / sag - 1.0) < 0.03);
     assert_true(fabs(pull - 1.0) < 0.005);
 }
 

@@ -581,23 +581,38 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
 #define DRAWN 1e-6      /* of the longer side: nearer to its pin a point is drawn as it is */
 #define DRAW_REACH 0.5  /* of the side of a region: farther points are moved in part, and from twice as far not at all */
 
+static kiriVec3 ShiftAt(const kiriShift* shift, kiriVec2 at)
+{
+    if (!(shift->reach > 0.0)) {
+        return shift->by;
+    }
+    double away = kiriVec2_Dot(kiriVec2_Sub(at, shift->from), shift->across);
+    double part = kiriMin(fabs(away) / shift->reach, 1.0), left = (1.0 - part) * (1.0 - part);
+    kiriVec3 turned = kiriVec3_Scale(left * away, shift->turn);
+    return kiriVec3_AddScaled(turned, left * (1.0 + 2.0 * part), shift->by);
+}
+
 /* Returns how far the shifts move a vertex. */
 static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriVec3 sum = { 0 };
+    kiriVec2 at = sheet->seen.surface.rest.data[vertex];
     KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[vertex]) {
         const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-        sum = kiriVec3_AddScaled(sum, weight->value, sheet->seen.surface.detail.shifts.data[weight->frame]);
+        const kiriShift* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
+        if (shift->moves) {
+            sum = kiriVec3_AddScaled(sum, weight->value, ShiftAt(shift, at));
+        }
     }
     return sum;
 }
 
-/* Lists a point of a frame that is drawn at its target. */
-static void ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3 target)
+/* Lists a point of a frame that is drawn at its target. Returns which part of the way it goes, 0 to 1. */
+static double ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3 target)
 {
     kiriPointPlace place;
     if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
-        return; /* outside, or on the other lip of a cut */
+        return 0.0; /* outside, or on the other lip of a cut */
     }
     const kiriVec3 normal = sheet->settings.mechanics.axes.d;
     kiriVec3 skin = kiriPoint_Position(sheet, &place), way = kiriVec3_Sub(target, skin);
@@ -615,9 +630,38 @@ static void ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, 
     }
     KIRI_ASSERT(drawn.square > 0.0);
     KIRI_NEXT(sheet->drawnPins) = drawn;
+    return part;
 }
 
-/* Lists the points of awake pieces: those with stiff pins, and the middle of each frame's share of a line. */
+/* Lists the middle of a frame's share of a line. The patch leaves a clamp in the clamp's direction. */
+static void ListDrawnLine(kiriSheetData* sheet, const kiriPinShare* pinned)
+{
+    const kiriPinData* pin = &sheet->pins.data[pinned->pin];
+    const kiriCarrier* patch = &sheet->seen.surface.carriers.data[pinned->share.frame];
+    kiriShift* shift = &sheet->seen.surface.detail.shifts.data[pinned->share.frame];
+    RestLine line = RestLineOf(sheet, pin);
+    kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
+    kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
+    /* The line may be on an edge of the sheet: a little closer to the site is inside the material. */
+    double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
+    at = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
+    double part = ListDrawn(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, at),
+                            HeldPoint(&line, pin->target, &pin->rotation, at));
+    kiriVec2 left = { -line.along.y, line.along.x };
+    double away = kiriVec2_Dot(way, left);
+    shift->from = line.from;
+    shift->across = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
+    shift->reach = shift->reach == 0.0 ? 2.0 * kiriMax(fabs(away), sheet->grid.side) : -1.0;
+    if (pin->type == KIRI_PIN_CLAMP) {
+        kiriVec2 n = shift->across, q = kiriVec2_Sub(at, patch->center);
+        double up = n.x * (patch->uu * q.x + patch->uv * q.y) + n.y * (patch->uv * q.x + patch->vv * q.y);
+        kiriVec3 is = kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(up, patch->d), n.x, patch->u), n.y, patch->v);
+        kiriVec3 due = kiriVec3_AddScaled(kiriVec3_Scale(n.x, pin->rotation.u), n.y, pin->rotation.v);
+        shift->turn = kiriVec3_Scale(part, kiriVec3_Sub(due, is));
+    }
+}
+
+/* Lists the points of awake pieces that stiff pins hold, and their lines. */
 static void ListAllDrawn(kiriSheetData* sheet, double dt)
 {
     sheet->drawnPins.count = 0;
@@ -626,19 +670,12 @@ static void ListAllDrawn(kiriSheetData* sheet, double dt)
         if (IsAwakePoint(sheet, i) && 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet)) {
             kiriVec3 given = kiriMat3_Mul(pin->anchor.give, kiriVec3_Scale(-dt * dt, pin->bore.force));
             ListDrawn(sheet, sheet->layout.pinFrame.data[i], pin->at, kiriVec3_Add(pin->target, given));
+            sheet->seen.surface.detail.shifts.data[sheet->layout.pinFrame.data[i]].reach = -1.0;
         }
     }
     KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
-        const kiriPinData* pin = &sheet->pins.data[pinned->pin];
         if (kiriSheet_Moves(sheet, pinned->share.frame)) {
-            /* The line may be on an edge of the sheet: a little closer to the site is inside the material. */
-            RestLine line = RestLineOf(sheet, pin);
-            kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
-            kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
-            double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
-            at = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
-            ListDrawn(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, at),
-                      HeldPoint(&line, pin->target, &pin->rotation, at));
+            ListDrawnLine(sheet, pinned);
         }
     }
 }
@@ -653,8 +690,9 @@ static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn)
     KIRI_EACH_CORNER(k) {
         KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[drawn->vertex[k]]) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-            kiriVec3* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
-            *shift = kiriVec3_AddScaled(*shift, drawn->share[k] * weight->value / drawn->square, missing);
+            kiriShift* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
+            shift->by = kiriVec3_AddScaled(shift->by, drawn->share[k] * weight->value / drawn->square, missing);
+            shift->moves = true;
         }
     }
     return kiriVec3_Length(missing);
@@ -668,10 +706,10 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     if (surface->isWritten || !kiriSurface_HasDetail(surface) || sheet->pins.count == 0 || sheet->sewn.count > 0) {
         return;
     }
-    ListAllDrawn(sheet, dt);
-    KIRI_EACH(kiriVec3, shift, surface->detail.shifts) {
-        *shift = (kiriVec3){ 0 };
+    KIRI_EACH(kiriShift, shift, surface->detail.shifts) {
+        KIRI_CLEAR(shift);
     }
+    ListAllDrawn(sheet, dt);
     for (int round = 0; round < DRAW_ROUNDS && apart > least; ++round) {
         apart = 0.0;
         KIRI_EACH(const kiriDrawnPin, drawn, sheet->drawnPins) {

@@ -61,8 +61,8 @@ static inline double kiriPins_Stiffness(const kiriSheetData* sheet)
 }
 
 /* Draws points and lines where pins hold them. The skin blends several frames, their patches bend less than the sheet at a
-   clamp, and pins yield. So patches of the frames at a pin get one offset each of the drawn surface (kiriDetail), which
-   fades with their weights. Motion, contacts and blades do not see it. No offset where the skin is farther from its pin
+   clamp, and pins yield. So patches of the frames at a pin get one offset each of the drawn surface (kiriShift), which
+   fades with their weights; at a clamp they leave the line in its direction. Motion, contacts and blades do not see it. No offset where the skin is farther from its pin
    than a region is wide, where a pin is softer than a tenth of kiriPins_Stiffness (its spring is seen longer), and in
    sheets with seams, whose lips move likewise. */
 void kiriPins_Draw(kiriSheetData* sheet, double dt);

@@ -22,6 +22,15 @@ typedef struct kiriDetailVertex {
     float share; /* 1 over the number of its edges; negative on the outline and on lips */
 } kiriDetailVertex;
 
+/* How the drawn patch of a frame is moved to where pins hold it. A patch at one line is moved by `by` at the line, where its
+   slope across changes by `turn`; both fade with the distance, by the cubics of Hermite. */
+typedef struct kiriShift {
+    bool moves;
+    kiriVec3 by, turn;     /* m; derivative along `across` */
+    kiriVec2 from, across; /* a point of the line, m, local; unit normal */
+    double reach;          /* m: where it ends. 0: there is no line; negative: several pins. Then `by` moves the whole patch */
+} kiriShift;
+
 /* Edges of a color share no vertex, so their order changes no bit. Only edges of the last color may: they go one by one. */
 enum { KIRI_DETAIL_COLORS = 32, KIRI_MOST_DETAIL = 16 /* sweeps */ };
 
@@ -40,7 +49,7 @@ typedef struct kiriDetail {
     KIRI_ARRAY(kiriDetailEdge) edges;         /* sorted by color */
     int32_t colorStart[KIRI_DETAIL_COLORS + 1];
     KIRI_ARRAY(uint8_t) awake;                /* per frame: awake when listed */
-    KIRI_ARRAY(kiriVec3) shifts;              /* m, scratch of a tick, per frame: of its patch, for pins */
+    KIRI_ARRAY(kiriShift) shifts;             /* scratch of a tick, per frame */
     uint64_t pins;                            /* hash of the pins when listed */
 } kiriDetail;
 
