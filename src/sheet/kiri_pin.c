@@ -581,27 +581,20 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
 #define DRAWN 1e-6      /* of the longer side: nearer to its pin a point is drawn as it is */
 #define DRAW_REACH 0.5  /* of the side of a region: farther points are moved in part, and from twice as far not at all */
 
-static kiriVec3 ShiftAt(const kiriShift* shift, kiriVec2 at)
-{
-    if (!(shift->reach > 0.0)) {
-        return shift->by;
-    }
-    double away = kiriVec2_Dot(kiriVec2_Sub(at, shift->from), shift->across);
-    double part = kiriMin(fabs(away) / shift->reach, 1.0), left = (1.0 - part) * (1.0 - part);
-    kiriVec3 turned = kiriVec3_Scale(left * away, shift->turn);
-    return kiriVec3_AddScaled(turned, left * (1.0 + 2.0 * part), shift->by);
-}
-
 /* Returns how far the shifts move a vertex. */
 static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriVec3 sum = { 0 };
-    kiriVec2 at = sheet->seen.surface.rest.data[vertex];
     KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[vertex]) {
         const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
         const kiriShift* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
         if (shift->moves) {
-            sum = kiriVec3_AddScaled(sum, weight->value, ShiftAt(shift, at));
+            kiriVec2 off = kiriVec2_Sub(sheet->seen.surface.rest.data[vertex], shift->from);
+            double away = shift->reach > 0.0 ? kiriVec2_Dot(off, shift->across) : 0.0;
+            double part = away != 0.0 ? kiriMin(fabs(away) / shift->reach, 1.0) : 0.0;
+            double left = weight->value * (1.0 - part) * (1.0 - part);
+            sum = kiriVec3_AddScaled(sum, left * (1.0 + 2.0 * part), shift->by);
+            sum = kiriVec3_AddScaled(sum, left * away, shift->turn);
         }
     }
     return sum;

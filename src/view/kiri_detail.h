@@ -28,7 +28,7 @@ typedef struct kiriShift {
     bool moves;
     kiriVec3 by, turn;     /* m; derivative along `across` */
     kiriVec2 from, across; /* a point of the line, m, local; unit normal */
-    double reach;          /* m: where it ends. 0: there is no line; negative: several pins. Then `by` moves the whole patch */
+    double reach;          /* m: where it ends. 0: without a line; negative: several pins. Then `by` moves the whole patch */
 } kiriShift;
 
 /* Edges of a color share no vertex, so their order changes no bit. Only edges of the last color may: they go one by one. */
