@@ -389,25 +389,23 @@ TEST(Strip)
 }
 
 /* A bag of two panels that are sewn on three sides and held at the mouth. */
-static kiriSeam AddBag(Host* host, kiriSheet panels[2])
+static kiriSeam AddBag(Host* host, float thickness, int32_t frames, kiriSheet panels[2])
 {
     static const float line[8] = { 0.0f, 0.3f, 0.0f, 0.0f, 0.3f, 0.0f, 0.3f, 0.3f };
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefaultSheet();
-        def.position[0] = -0.15f;
-        def.position[1] = k == 0 ? -0.005f : 0.005f;
-        def.axisV[1] = 0.0f;
-        def.axisV[2] = 1.0f;
-        def.frameCount = 36;
+        Set3(def.position, -0.15f, k == 0 ? -0.005f : 0.005f, 0.0f);
+        Set3(def.axisV, 0.0f, 0.0f, 1.0f);
+        def.frameCount = frames;
+        def.skinning = KIRI_SKINNING_SMOOTH;
         def.touchesSheets = 1;
-        def.contactThickness = 0.005f;
+        def.contactThickness = thickness;
         panels[k] = Host_AddRectangle(host, &def, 0.3f, 0.3f, 30, 30);
         for (int i = 0; i < 2; ++i) {
             kiriPinDef pin = DefaultPin();
             pin.restPoint[0] = 0.1f * (float)(i + 1);
-            pin.restPoint[1] = pin.target[2] = 0.3f;
-            pin.target[0] = pin.restPoint[0] - 0.15f;
-            pin.target[1] = def.position[1];
+            pin.restPoint[1] = 0.3f;
+            Set3(pin.target, pin.restPoint[0] - 0.15f, def.position[1], 0.3f);
             World_AddPin(host->world, panels[k], &pin);
         }
     }
@@ -415,22 +413,24 @@ static kiriSeam AddBag(Host* host, kiriSheet panels[2])
     return World_AddSeam(host->world, &seam);
 }
 
-/* Panels face to face keep apart: but not where they are sewn. */
-TEST(Bag)
+/* Panels face to face keep apart: but not where they are sewn. Skins of lips may cross there, by more than thin cloth keeps. */
+FIGURE(Bag)
 {
-    double gap, force;
-    kiriSheet panels[2];
-    START_HOST(host);
-    host.every = 50;
-    kiriSeam made = AddBag(&host, panels);
-    Host_Ticks(&host, 240, dt, 2);
-    Measure(&host, made, &gap, &force);
-    assert_true(gap < 3e-4 && force < 10.0);
-    for (int k = 2; k < 7; ++k) {
-        const float middle[2] = { 0.0375f * (float)k, 0.15f };
-        kiriPointState a = World_PointState(host.world, panels[0], middle);
-        kiriPointState b = World_PointState(host.world, panels[1], middle);
-        assert_true(Distance(a.position, b.position) > 0.5 * 0.005);
+    static const float thickness[3] = { 0.005f, 0.001f, 0.0005f }, frames[3] = { 36.0f, 25.0f, 16.0f };
+    for (int i = 0; i < 3; ++i) {
+        double gap, force;
+        kiriSheet panels[2];
+        START_HOST(host);
+        host.every = 50;
+        kiriSeam made = AddBag(&host, thickness[i], (int32_t)frames[i], panels);
+        Host_Ticks(&host, 240, dt, 2);
+        Measure(&host, made, &gap, &force);
+        assert_true(gap < 3e-4 && force < 1.0);
+        for (int k = 0; k < 25; ++k) {
+            const float at[2] = { 0.0375f * (float)(k % 5 + 2), 0.0375f * (float)(k / 5 + 2) };
+            float apart = World_PointState(host.world, panels[1], at).position[1];
+            assert_true(apart - World_PointState(host.world, panels[0], at).position[1] > 0.5f * thickness[i]);
+        }
     }
 }
 

@@ -175,7 +175,8 @@ static void ForgetTouches(kiriWorld* world)
     world->pairs.touches.count = 0;
 }
 
-#define SEWN_REACH 4.0 /* of the distance that pieces keep: beside a seam, lips that nearer do not push each other */
+#define SEWN_REACH 4.0    /* of the distance that pieces keep: beside a seam, lips that near do not push each other, */
+#define SEWN_SPACING 0.25 /* and of the distance of frames: the skins of lips differ from what stitches hold */
 
 static kiriVec2 RestOfPlace(const kiriPlace3* place)
 {
@@ -188,19 +189,18 @@ static kiriVec2 RestOfPlace(const kiriPlace3* place)
 }
 
 /* Returns true if one seam passes near both places. */
-static bool AreSewn(const kiriPlace3* a, const kiriPlace3* b, double reach)
+static bool AreSewn(const kiriPlace3* a, const kiriPlace3* b, double thickness)
 {
     bool areSewn = false;
-    if (a->sheet->sewn.count == 0 || b->sheet->sewn.count == 0) {
-        return false;
-    }
-    KIRI_ASSERT(reach > 0.0);
     kiriVec2 at = RestOfPlace(a), other = RestOfPlace(b);
     kiriSeam last = 0;
     KIRI_EACH_WHILE(!areSewn, const kiriSewnLine, line, a->sheet->sewn) {
-        bool isNew = line->seam != last;
-        last = line->seam;
-        areSewn = isNew && kiriSewn_IsNear(a->sheet, last, at, reach) && kiriSewn_IsNear(b->sheet, last, other, reach);
+        if (line->seam != last) {
+            double spacing = kiriMax(kiriSheet_Spacing(a->sheet), kiriSheet_Spacing(b->sheet));
+            double reach = kiriMax(SEWN_REACH * thickness, SEWN_SPACING * spacing);
+            last = line->seam;
+            areSewn = kiriSewn_IsNear(a->sheet, last, at, reach) && kiriSewn_IsNear(b->sheet, last, other, reach);
+        }
     }
     return areSewn;
 }
@@ -211,10 +211,10 @@ static double CompleteTouch(const kiriWorld* world, kiriPairTouch* touch, double
     touch->velocity = PlaceVelocity(&touch->lower);
     touch->touch = KIRI_NONE;
     double above = touch->gap - Approach(world, touch, dt);
-    if (AreSewn(&touch->upper, &touch->lower, SEWN_REACH * thickness)) {
-        return HUGE_VAL;
-    }
     if (above < (1.0 + MARGIN) * touch->distance) {
+        if (AreSewn(&touch->upper, &touch->lower, thickness)) {
+            return HUGE_VAL;
+        }
         RankTouch(touch, touch->distance);
     }
     return above;
@@ -928,7 +928,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     touch.upper.vertex[1] = search->b;
     touch.upper.share[0] = 1.0 - *part;
     touch.lower = TrianglePlace(sheet, triangle, near.share);
-    if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * sheet->settings.foldThickness)) {
+    if (AreSewn(&touch.upper, &touch.lower, sheet->settings.foldThickness)) {
         return search->least[0];
     }
     bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
