@@ -205,7 +205,7 @@ static void PrintStage(const char* name, double* seconds, int32_t count)
     printf("  %-12s %10.3f %10.3f\n", name, 1e3 * seconds[count / 2], 1e3 * seconds[count - 1]);
 }
 
-static void Times_Print(Times* times, const Scene* scene)
+static void Times_Print(Times* times, const Scene* scene, const Options* options)
 {
     const kiriCounts* a = &times->before;
     const kiriCounts* b = &times->after;
@@ -213,7 +213,11 @@ static void Times_Print(Times* times, const Scene* scene)
     for (int32_t i = 0; i < times->ticks; i++) {
         total += times->seconds[KIRI_STAGE_COUNT][i];
     }
-    printf("%s: %d ticks of 1/60 s, %d substeps each\n\n", scene->type->name, times->ticks, scene->type->substeps);
+    if (options->replay != NULL) {
+        printf("%s: %d ticks\n\n", options->replay, times->ticks);
+    } else {
+        printf("%s: %d ticks of 1/60 s, %d substeps each\n\n", scene->type->name, times->ticks, scene->type->substeps);
+    }
     printf("  %-12s %10s %10s\n", "", "before", "after");
     printf("  %-12s %10d %10d\n", "vertices", a->vertices, b->vertices);
     printf("  %-12s %10d %10d\n", "triangles", a->triangles, b->triangles);
@@ -251,7 +255,7 @@ static bool RunTicks(Scene* scene, SceneReplay* replay, Film* film, Times* times
         if (options->every > 0 && !Film_Tick(film, scene, options, ticks)) {
             return false;
         }
-        if (!options->quiet) {
+        if (!options->quiet && 100 * (i + 1) / ticks > 100 * i / ticks) {
             fprintf(stderr, "\r%3d %%  tick %d of %d ", 100 * (i + 1) / ticks, i + 1, ticks);
         }
     }
@@ -327,7 +331,7 @@ static bool RunScene(Scene* scene, SceneReplay* replay, const Options* options)
         kiriSheet_GetCounts(scene->world, scene->sheet, &times.before);
         fine = RunTicks(scene, replay, &film, &times, options, ticks);
         kiriSheet_GetCounts(scene->world, scene->sheet, &times.after);
-        Times_Print(&times, scene);
+        Times_Print(&times, scene, options);
     }
     fine = fine && (options->every == 0 || FinishPictures(&film, options));
     fine = fine && (options->model == NULL || WriteModel(&film, scene, options->model));

@@ -156,6 +156,50 @@ static void FindSheet(Scene* scene)
     }
 }
 
+static float GetSize(const SceneReplay* replay)
+{
+    float size = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        size = fmaxf(size, replay->upper[k] - replay->lower[k]);
+    }
+    return size;
+}
+
+/* A camera before the middle of the box, a little above; the box moved by `offset`, in m. */
+static void SetCamera(const SceneReplay* replay, Scene* scene, const float offset[3])
+{
+    static const float way[3] = { -0.5f, -2.6f, 0.8f };
+    float size = GetSize(replay);
+    if (size > 0.0f) {
+        scene->paced = *scene->type;
+        scene->paced.size = size;
+        scene->paced.pegs = false;
+        for (int k = 0; k < 3; k++) {
+            scene->paced.camera.target[k] = (0.5f * (replay->lower[k] + replay->upper[k]) + offset[k]) / size;
+            scene->paced.camera.eye[k] = scene->paced.camera.target[k] + way[k];
+        }
+        scene->paced.camera.fieldOfView = 38.0f;
+        scene->type = &scene->paced;
+    }
+}
+
+/* Moves the camera level, by the way that the middle of the largest piece has left the box: a vehicle's sheet stays seen. */
+static void Follow(const SceneReplay* replay, Scene* scene)
+{
+    kiriPieceState piece, largest = { .area = 0.0 };
+    float offset[3] = { 0.0f };
+    for (int32_t i = 0; kiriSheet_GetPiece(scene->world, scene->sheet, i, &piece) == KIRI_OK; i++) {
+        largest = piece.area > largest.area ? piece : largest;
+    }
+    for (int k = 0; k < 2 && largest.area > 0.0; k++) {
+        float at = (float)largest.center[k];
+        offset[k] = at - fminf(fmaxf(at, replay->lower[k]), replay->upper[k]);
+    }
+    if (largest.area > 0.0) {
+        SetCamera(replay, scene, offset);
+    }
+}
+
 kiriResult SceneReplay_Tick(SceneReplay* replay, Scene* scene)
 {
     if (replay->isSave) {
@@ -172,6 +216,9 @@ kiriResult SceneReplay_Tick(SceneReplay* replay, Scene* scene)
         }
     }
     FindSheet(scene);
+    if (scene->type == &scene->paced) { /* no scene's own camera */
+        Follow(replay, scene);
+    }
     scene->tick = (int32_t)replay->at.ticks;
     return result;
 }
@@ -198,33 +245,6 @@ static void Measure(SceneReplay* replay, const Scene* scene)
         }
     }
     Sheets_Free(&sheets);
-}
-
-static float GetSize(const SceneReplay* replay)
-{
-    float size = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        size = fmaxf(size, replay->upper[k] - replay->lower[k]);
-    }
-    return size;
-}
-
-/* A camera before the middle of the box, a little above. */
-static void SetCamera(const SceneReplay* replay, Scene* scene)
-{
-    static const float way[3] = { -0.5f, -2.6f, 0.8f };
-    float size = GetSize(replay);
-    if (size > 0.0f) {
-        scene->paced = *scene->type;
-        scene->paced.size = size;
-        scene->paced.pegs = false;
-        for (int k = 0; k < 3; k++) {
-            scene->paced.camera.target[k] = 0.5f * (replay->lower[k] + replay->upper[k]) / size;
-            scene->paced.camera.eye[k] = scene->paced.camera.target[k] + way[k];
-        }
-        scene->paced.camera.fieldOfView = 38.0f;
-        scene->type = &scene->paced;
-    }
 }
 
 /* All of it, for the number of its ticks and what is wrong with it. */
@@ -263,7 +283,7 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, cons
         replay->isRight = true;
         FindSheet(scene);
         Measure(replay, scene);
-        SetCamera(replay, scene);
+        SetCamera(replay, scene, (const float[3]){ 0.0f });
         return true;
     }
     Check(replay, scene);
@@ -282,7 +302,7 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, cons
         Scene_Stop(scene);
         replay->at = (kiriReplay){ 0 };
         bool isFine = StartScene(scene, type, def);
-        SetCamera(replay, scene);
+        SetCamera(replay, scene, (const float[3]){ 0.0f });
         return isFine;
     }
     return true;

@@ -211,6 +211,7 @@ var namesMaterialPreset = map[MaterialPreset]string{
 
 func (v MaterialPreset) String() string { return namesMaterialPreset[v] }
 
+// Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 type QualityPreset int32
 
 const (
@@ -229,6 +230,7 @@ var namesQualityPreset = map[QualityPreset]string{
 
 func (v QualityPreset) String() string { return namesQualityPreset[v] }
 
+// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
 type SetupPreset int32
 
 const (
@@ -541,15 +543,15 @@ type Quality struct {
 // Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
 type Setup struct {
 	Material Material
-	// for the sheet def, as the material
-	Model int32
-	// for the sheet def, as the material
-	Skinning int32
-	// for the sheet def, as the material
+	// KIRI_MODEL_...
+	Model Model
+	// KIRI_SKINNING_...
+	Skinning Skinning
+	// for the sheet def, as the three above
 	GridResolution int32
-	// for the sheet def, as the material
+	// for the sheet def, as the three above
 	FrameCount int32
-	// for the sheet def, as the material
+	// for the sheet def, as the three above
 	Iterations int32
 	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 	Columns int32

@@ -296,16 +296,16 @@ typedef struct kiriQuality {
     int32_t gridResolution, iterations; /* for the sheet def */
     int32_t substeps;       /* for kiriWorld_Tick */
 } kiriQuality;
-
 enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
 /* Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
 typedef struct kiriSetup {
     kiriMaterial material;
-    int32_t model, skinning, gridResolution, frameCount, iterations; /* for the sheet def, as the material */
+    int32_t model;    /* KIRI_MODEL_... */
+    int32_t skinning; /* KIRI_SKINNING_... */
+    int32_t gridResolution, frameCount, iterations; /* for the sheet def, as the three above */
     int32_t columns, rows, substeps; /* for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s */
 } kiriSetup;
-
 enum kiriSetupPreset { KIRI_SETUP_CURTAIN, KIRI_SETUP_PAPER, KIRI_SETUP_FLAG, KIRI_SETUP_RIBBON, KIRI_SETUP_RUBBER,
                        KIRI_SETUP_CARD, KIRI_SETUP_FOIL, KIRI_SETUP_COUNT };
 

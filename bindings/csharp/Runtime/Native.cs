@@ -438,6 +438,8 @@ namespace Kiri
         Count = 10,
     }
 
+    /// <summary>Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual,
+    /// accuracy).</summary>
     public enum QualityPreset
     {
         Fast = 0,
@@ -446,6 +448,7 @@ namespace Kiri
         Count = 3,
     }
 
+    /// <summary>Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.</summary>
     public enum SetupPreset
     {
         Curtain = 0,
@@ -733,15 +736,15 @@ namespace Kiri
     public unsafe struct Setup
     {
         public Material Material;
-        /// <summary>for the sheet def, as the material</summary>
-        public int Model;
-        /// <summary>for the sheet def, as the material</summary>
-        public int Skinning;
-        /// <summary>for the sheet def, as the material</summary>
+        /// <summary>KIRI_MODEL_...</summary>
+        public Model Model;
+        /// <summary>KIRI_SKINNING_...</summary>
+        public Skinning Skinning;
+        /// <summary>for the sheet def, as the three above</summary>
         public int GridResolution;
-        /// <summary>for the sheet def, as the material</summary>
+        /// <summary>for the sheet def, as the three above</summary>
         public int FrameCount;
-        /// <summary>for the sheet def, as the material</summary>
+        /// <summary>for the sheet def, as the three above</summary>
         public int Iterations;
         /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
         public int Columns;

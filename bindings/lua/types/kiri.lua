@@ -183,11 +183,11 @@ kiri.DRAW_ALL = 2047
 --- Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
 ---@class kiri.Setup
 ---@field material? kiri.Material
----@field model? integer # for the sheet def, as the material
----@field skinning? integer # for the sheet def, as the material
----@field gridResolution? integer # for the sheet def, as the material
----@field frameCount? integer # for the sheet def, as the material
----@field iterations? integer # for the sheet def, as the material
+---@field model? integer # KIRI_MODEL_...
+---@field skinning? integer # KIRI_SKINNING_...
+---@field gridResolution? integer # for the sheet def, as the three above
+---@field frameCount? integer # for the sheet def, as the three above
+---@field iterations? integer # for the sheet def, as the three above
 ---@field columns? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 ---@field rows? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 ---@field substeps? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s

@@ -33,6 +33,7 @@ IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'P
  'kiriDebugDraw': {'sheet': 'Sheet'}}
 
 ENUMS = {'kiriEvent': {'type': 'EventType', 'stage': 'Stage'},
+ 'kiriSetup': {'model': 'Model', 'skinning': 'Skinning'},
  'kiriSheetDef': {'model': 'Model', 'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
  'kiriSheetSettings': {'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
  'kiriPinState': {'type': 'PinType'},

@@ -77,6 +77,8 @@ class MaterialPreset(_enum.IntEnum):
 
 
 class QualityPreset(_enum.IntEnum):
+    """Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual,
+    accuracy)."""
     FAST = 0
     BALANCED = 1
     ACCURATE = 2
@@ -84,6 +86,8 @@ class QualityPreset(_enum.IntEnum):
 
 
 class SetupPreset(_enum.IntEnum):
+    """Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for
+    cloth."""
     CURTAIN = 0
     PAPER = 1
     FLAG = 2

@@ -410,15 +410,15 @@ pub struct kiriQuality {
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSetup {
     pub material: kiriMaterial,
-    /// for the sheet def, as the material
+    /// KIRI_MODEL_...
     pub model: i32,
-    /// for the sheet def, as the material
+    /// KIRI_SKINNING_...
     pub skinning: i32,
-    /// for the sheet def, as the material
+    /// for the sheet def, as the three above
     pub gridResolution: i32,
-    /// for the sheet def, as the material
+    /// for the sheet def, as the three above
     pub frameCount: i32,
-    /// for the sheet def, as the material
+    /// for the sheet def, as the three above
     pub iterations: i32,
     /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
     pub columns: i32,

@@ -387,7 +387,8 @@ impl MaterialPreset {
     }
 }
 
-/// Quality preset.
+/// Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 %
+/// (manual, accuracy).
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -419,7 +420,8 @@ impl QualityPreset {
     }
 }
 
-/// Setup preset.
+/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
+/// frames for cloth.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -874,20 +876,19 @@ impl Quality {
 
 /// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
 /// frames for cloth.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Setup {
     /// Material.
     pub material: Material,
-    /// for the sheet def, as the material
-    pub model: i32,
-    /// for the sheet def, as the material
-    pub skinning: i32,
-    /// for the sheet def, as the material
+    /// KIRI_MODEL_...
+    pub model: Model,
+    /// KIRI_SKINNING_...
+    pub skinning: Skinning,
+    /// for the sheet def, as the three above
     pub grid_resolution: i32,
-    /// for the sheet def, as the material
+    /// for the sheet def, as the three above
     pub frame_count: i32,
-    /// for the sheet def, as the material
+    /// for the sheet def, as the three above
     pub iterations: i32,
     /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
     pub columns: i32,
@@ -897,31 +898,20 @@ pub struct Setup {
     pub substeps: i32,
 }
 
-const _: () = {
-    assert!(size_of::<Setup>() == size_of::<sys::kiriSetup>());
-    assert!(align_of::<Setup>() == align_of::<sys::kiriSetup>());
-    assert!(offset_of!(Setup, material) == offset_of!(sys::kiriSetup, material));
-    assert!(offset_of!(Setup, model) == offset_of!(sys::kiriSetup, model));
-    assert!(offset_of!(Setup, skinning) == offset_of!(sys::kiriSetup, skinning));
-    assert!(offset_of!(Setup, grid_resolution) == offset_of!(sys::kiriSetup, gridResolution));
-    assert!(offset_of!(Setup, frame_count) == offset_of!(sys::kiriSetup, frameCount));
-    assert!(offset_of!(Setup, iterations) == offset_of!(sys::kiriSetup, iterations));
-    assert!(offset_of!(Setup, columns) == offset_of!(sys::kiriSetup, columns));
-    assert!(offset_of!(Setup, rows) == offset_of!(sys::kiriSetup, rows));
-    assert!(offset_of!(Setup, substeps) == offset_of!(sys::kiriSetup, substeps));
-};
-
 impl Setup {
     #[allow(dead_code)]
     pub(crate) fn from_raw(raw: &sys::kiriSetup) -> Self {
-        // SAFETY: the layout is the same, and any bits are a value of each field.
-        unsafe { *std::ptr::from_ref(raw).cast() }
-    }
-
-    #[allow(dead_code)]
-    pub(crate) fn raw(&self) -> sys::kiriSetup {
-        // SAFETY: as above.
-        unsafe { *std::ptr::from_ref(self).cast() }
+        Self {
+            material: Material::from_raw(&raw.material),
+            model: Model::known(raw.model),
+            skinning: Skinning::known(raw.skinning),
+            grid_resolution: raw.gridResolution,
+            frame_count: raw.frameCount,
+            iterations: raw.iterations,
+            columns: raw.columns,
+            rows: raw.rows,
+            substeps: raw.substeps,
+        }
     }
 }
 
