@@ -260,6 +260,7 @@ typedef struct MotionFit {
     kiriFrameData* state; /* result; its centre, x and velocity are final before the second pass */
     double mass;          /* sum over the parts */
     kiriMat3 A, rate;     /* their means */
+    kiriMat3 stretch;     /* of A without its rotation, the mean */
     kiriMat3 positions;   /* integral of density times position times the rest way from the centre, */
     kiriMat3 velocities;  /* and of density times velocity times that way */
     kiriVec3 angular;     /* momentum about the centre */
@@ -317,6 +318,10 @@ static void SumMeans(MotionFit* fit, const kiriFrameData* part)
     sum->velocity = kiriVec3_AddScaled(sum->velocity, part->mass, part->velocity);
     sum->spin = kiriVec3_AddScaled(sum->spin, part->mass, part->spin);
     fit->A = kiriMat3_AddScaled(&fit->A, part->mass, &part->A);
+    kiriMat3 turn = kiriMat3_Rotation(part->A);
+    kiriMat3 stretch = { kiriMat3_MulTransposed(&turn, part->A.u), kiriMat3_MulTransposed(&turn, part->A.v),
+                         kiriMat3_MulTransposed(&turn, part->A.d) };
+    fit->stretch = kiriMat3_AddScaled(&fit->stretch, part->mass, &stretch);
     fit->rate = kiriMat3_AddScaled(&fit->rate, part->mass, &rate);
 }
 
@@ -369,7 +374,8 @@ static void FitState(MotionFit* fit)
         state->rate = (kiriMat3){ 0 };
     } else {
         kiriMat3 rate = NearestSlope(fit, &fit->rate, &fit->velocities);
-        state->A = NearestSlope(fit, &fit->A, &fit->positions);
+        kiriMat3 slope = NearestSlope(fit, &fit->A, &fit->positions); /* parts that turn apart would shrink it */
+        state->A = kiriMat3_MulMat(kiriMat3_Rotation(slope), fit->stretch);
         state->spin = kiriMat3_Spin(&state->A, &rate);
         state->rate = kiriMat3_Beside(&state->A, &rate, state->spin);
     }
@@ -386,7 +392,7 @@ static bool FitFrame(MotionFit* fit, int32_t frame, const kiriTally* region, con
     kiriFrameData* state = fit->state;
     kiriFrame_Recenter(state, material, fit->densityPerArea);
     state->x = state->velocity = state->spin = fit->angular = zero;
-    fit->A = fit->rate = fit->positions = fit->velocities = (kiriMat3){ 0 };
+    fit->A = fit->stretch = fit->rate = fit->positions = fit->velocities = (kiriMat3){ 0 };
     fit->mass = fit->energy = 0.0;
     VisitParts(fit, frame, region, SumMeans);
     if (!(fit->mass > 0.0)) {
@@ -397,6 +403,7 @@ static bool FitFrame(MotionFit* fit, int32_t frame, const kiriTally* region, con
     state->velocity = kiriVec3_Scale(share, state->velocity);
     state->spin = kiriVec3_Scale(share, state->spin);
     fit->A = kiriMat3_Scale(share, &fit->A);
+    fit->stretch = kiriMat3_Scale(share, &fit->stretch);
     fit->rate = kiriMat3_Scale(share, &fit->rate);
     VisitParts(fit, frame, region, SumIntegrals);
     FitState(fit);

@@ -409,9 +409,10 @@ static void KeepPull(const kiriSheetData* sheet, kiriPinRow row, const kiriFrame
     row.reaction->offset = kiriVec3_Add(row.reaction->offset, kiriVec3_Sub(is, was));
 }
 
-void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old, bool keepsStrains)
+void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old)
 {
-    KIRI_EACH_INDEX_WHILE(keepsStrains, i, sheet->pins) {
+    bool keepsPulls = kiriSheet_KeepsPulls(sheet);
+    KIRI_EACH_INDEX_WHILE(keepsPulls, i, sheet->pins) {
         if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
             kiriPinRow row = PointRow(sheet, &sheet->pins.data[i], sheet->layout.pinFrame.data[i], 0.0);
             KeepPull(sheet, row, FrameBefore(sheet, old->pinFrame.data[i]));
@@ -426,10 +427,10 @@ void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old, bool keepsStrain
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
             pinned->bore = older->bore;
         }
-        if (keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+        if (kiriSheet_KeepsStrains(sheet) && sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             KeepStrains(sheet, &old->pinShares, older, pinned);
         }
-        KIRI_TIMES_WHILE(keepsStrains && sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE, k, 2) {
+        KIRI_TIMES_WHILE(keepsPulls && sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE, k, 2) {
             KeepPull(sheet, HingeRow(sheet, pinned, k, 0.0), older != NULL ? FrameBefore(sheet, pinned->share.frame) : NULL);
         }
     }

@@ -26,9 +26,9 @@ bool kiriPins_Stage(kiriSheetData* sheet);
 /* Writes sheet->linkParts. Call when links or clamps changed. Capacity is reserved. */
 void kiriPins_WriteLinkParts(kiriSheetData* sheet);
 
-/* After a commit: copies the history of reactions to frames that were held before. keepsStrains: clamps keep their strains,
-   and springs their pull, by offsets; these start at zero on other frames. `old`: the previous layout. */
-void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old, bool keepsStrains);
+/* After a commit: copies the history of reactions to frames that were held before. Clamps may keep their strains, and
+   springs their pull, by offsets; these start at zero on other frames. `old`: the previous layout. */
+void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old);
 
 /* Fades the offsets of clamps to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);

@@ -628,11 +628,15 @@ static inline bool kiriSettings_Yield(const kiriSettings* settings)
            settings->material.yieldStress > 0.0f;
 }
 
-/* Returns true if links keep their strains when a cut changes them. */
+/* Return true if springs of pins and hinges keep their pull, and links their strains, when a cut changes them. */
+static inline bool kiriSheet_KeepsPulls(const kiriSheetData* sheet)
+{
+    return sheet->settings.fadeTime > 0.0 || sheet->plastics.isKept;
+}
+
 static inline bool kiriSheet_KeepsStrains(const kiriSheetData* sheet)
 {
-    return sheet->settings.mechanics.model == KIRI_MODEL_LINKS &&
-           (sheet->settings.fadeTime > 0.0 || sheet->plastics.isKept);
+    return sheet->settings.mechanics.model == KIRI_MODEL_LINKS && kiriSheet_KeepsPulls(sheet);
 }
 
 /* Returns the length of the longer side, m. */

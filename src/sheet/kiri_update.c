@@ -469,7 +469,7 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
     int32_t points = sheet->points.count + u->samples.newPoints.count;
     const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
                                     points };
-    bool ok = (!kiriSheet_KeepsStrains(sheet) ||
+    bool ok = (!kiriSheet_KeepsPulls(sheet) ||
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
                                          kiriMax(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
@@ -825,7 +825,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     sheet->probes.isFresh = false;
     int32_t oldLinks = sheet->links.links.count;
     bool keepsStrains = kiriSheet_KeepsStrains(sheet);
-    if (keepsStrains) {
+    if (kiriSheet_KeepsPulls(sheet)) {
         kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count,
                                    sheet->regions.dirty.data);
     }
@@ -851,7 +851,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     u->next = layout;
     kiriPieces_Keep(sheet, &u->next);
     kiriPins_WriteLinkParts(sheet);
-    kiriPins_Keep(sheet, &u->next, keepsStrains);
+    kiriPins_Keep(sheet, &u->next);
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
     kiriView_Resize(sheet, sheet->frames.count);
