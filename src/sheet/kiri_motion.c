@@ -314,7 +314,7 @@ int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, cons
         kiriSolver_FadeOffsets(&fading, sheet->strainOffsets.strainOffsets.data, plastics, &sheet->solver->moved.links,
                                fade / (fade + dt), mayTouch);
     }
-    kiriPins_FadeOffsets(sheet, dt, fade);
+    kiriPins_FadeOffsets(sheet, dt, time);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     kiriPins_BeginReactions(sheet);
     kiriTouches_WriteRows(sheet);

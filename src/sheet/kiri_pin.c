@@ -1,6 +1,7 @@
 #include "kiri_pin.h"
 #include "kiri_seen.h"
 #include "kiri_sheet_site.h"
+#include "kiri_tear.h"
 #include "../motion/kiri_solver.h"
 #include "../motion/kiri_frame.h"
 
@@ -411,7 +412,8 @@ static void KeepPull(const kiriSheetData* sheet, kiriPinRow row, const kiriFrame
 
 void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old)
 {
-    bool keepsPulls = kiriSheet_KeepsPulls(sheet);
+    /* Tears take effect in each tick: pulls that are kept would let pins slip. */
+    bool keepsPulls = kiriSheet_KeepsPulls(sheet) && !kiriTears_AreGrowing(sheet);
     KIRI_EACH_INDEX_WHILE(keepsPulls, i, sheet->pins) {
         if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
             kiriPinRow row = PointRow(sheet, &sheet->pins.data[i], sheet->layout.pinFrame.data[i], 0.0);
