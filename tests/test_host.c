@@ -437,7 +437,7 @@ TEST(HeldFrameMovesEvenly)
     }
 }
 
-/* A pinned point and a clamped line are drawn where they are held, a held frame nearly, and the sheet falls asleep. */
+/* Pinned points and clamped lines are drawn where they are held, held frames nearly, and the sheet falls asleep. */
 TEST(SeenIsHeld)
 {
     for (int k = 0; k < 6; ++k) {
@@ -473,6 +473,9 @@ TEST(SeenIsHeld)
             const float u = kind == 2 ? held.restPoint[0] : 0.05f * (float)i, v = kind == 2 ? held.restPoint[1] : 1.0f;
             const float at[3] = { kind == 0 && i == 20 ? 0.8f : u, v, 0.0f };
             off = fmax(off, Apart(PointAt(&host, sheet, u, v).position, at));
+        }
+        if (kind == 1) { /* it leaves the clamp in its direction */
+            assert_true(Apart(PointAt(&host, sheet, 0.5f, 0.95f).position, (float[]){ 0.5f, 0.95f, 0.0f }) < 6e-3);
         }
         print_message("case %d: seen %.2f mm off\n", k, 1e3 * off);
         assert_true(off < (kind == 0 ? 1e-4 : kind == 1 ? 1e-3 : 3e-3));

@@ -629,11 +629,25 @@ static double ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at
     return part;
 }
 
+/* Returns by how much the slope of the drawn surface at a point of a clamp, along `across`, differs from the clamp's. */
+static kiriVec3 MissingTurn(const kiriSheetData* sheet, const kiriPinData* clamp, kiriVec2 at, kiriVec2 across)
+{
+    const double step = sheet->grid.side;
+    kiriVec3 due = kiriVec3_AddScaled(kiriVec3_Scale(across.x, clamp->rotation.u), across.y, clamp->rotation.v);
+    kiriPointPlace place;
+    if (!kiriPoint_Find(sheet, kiriMesh_Snap(&sheet->mesh, at), &place)) {
+        return (kiriVec3){ 0 };
+    }
+    kiriVec3 here = kiriPoint_Drawn(sheet, &place);
+    kiriLatticePoint beside = kiriMesh_Snap(&sheet->mesh, kiriVec2_AddScaled(at, step, across));
+    kiriMesh_Shares(&sheet->mesh, place.triangle, beside, place.shares);
+    return kiriVec3_AddScaled(due, -1.0 / step, kiriVec3_Sub(kiriPoint_Drawn(sheet, &place), here));
+}
+
 /* Lists the middle of a frame's share of a line. The patch leaves a clamp in the clamp's direction. */
 static void ListDrawnLine(kiriSheetData* sheet, const kiriPinShare* pinned)
 {
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
-    const kiriCarrier* patch = &sheet->seen.surface.carriers.data[pinned->share.frame];
     kiriShift* shift = &sheet->seen.surface.detail.shifts.data[pinned->share.frame];
     RestLine line = RestLineOf(sheet, pin);
     kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
@@ -649,11 +663,7 @@ static void ListDrawnLine(kiriSheetData* sheet, const kiriPinShare* pinned)
     shift->across = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
     shift->reach = shift->reach == 0.0 ? 2.0 * kiriMax(fabs(away), sheet->grid.side) : -1.0;
     if (pin->type == KIRI_PIN_CLAMP) {
-        kiriVec2 n = shift->across, q = kiriVec2_Sub(at, patch->center);
-        double up = n.x * (patch->uu * q.x + patch->uv * q.y) + n.y * (patch->uv * q.x + patch->vv * q.y);
-        kiriVec3 is = kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(up, patch->d), n.x, patch->u), n.y, patch->v);
-        kiriVec3 due = kiriVec3_AddScaled(kiriVec3_Scale(n.x, pin->rotation.u), n.y, pin->rotation.v);
-        shift->turn = kiriVec3_Scale(part, kiriVec3_Sub(due, is));
+        shift->turn = kiriVec3_Scale(part, MissingTurn(sheet, pin, at, shift->across));
     }
 }
 
