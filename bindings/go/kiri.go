@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.25.0"
+const Version = "0.26.0"
 
 type ResultCode int32
 

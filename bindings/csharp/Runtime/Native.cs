@@ -1441,7 +1441,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 2500;
+        public const int Version = 2600;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
