@@ -603,45 +603,29 @@ static kiriVec3 ShiftOf(const kiriSheetData* sheet, int32_t vertex)
     return sum;
 }
 
-/* Lists a point of a frame that is drawn at its target. Returns which part of the way it goes, 0 to 1. */
-static double ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3 target)
+/* Lists a point of a frame that is drawn at its target. Returns its place, and which part of the way it goes, 0 to 1. */
+static double ListDrawn(kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3 target, kiriPointPlace* place)
 {
-    kiriPointPlace place;
-    if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
+    if (!kiriPoint_Find(sheet, at, place) || !(ShareAt(sheet, place, frame) > 0.0)) {
         return 0.0; /* outside, or on the other lip of a cut */
     }
     const kiriVec3 normal = sheet->settings.mechanics.axes.d;
-    kiriVec3 skin = kiriPoint_Position(sheet, &place), way = kiriVec3_Sub(target, skin);
+    kiriVec3 skin = kiriPoint_Position(sheet, place), way = kiriVec3_Sub(target, skin);
     way = sheet->settings.mechanics.planar ? kiriVec3_Across(way, normal) : way;
     double reach = DRAW_REACH * sqrt(sheet->frames.data[frame].area);
     double part = kiriClamp(2.0 - kiriVec3_Length(way) / reach, 0.0, 1.0);
-    kiriDrawnPin drawn = { .missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, &place)) };
+    kiriDrawnPin drawn = { .missing = kiriVec3_Sub(kiriVec3_AddScaled(skin, part, way), kiriPoint_Drawn(sheet, place)) };
     KIRI_EACH_CORNER(k) {
-        drawn.vertex[k] = sheet->mesh.triangles.data[place.triangle].vertex[k];
-        drawn.share[k] = place.shares[k];
+        drawn.vertex[k] = sheet->mesh.triangles.data[place->triangle].vertex[k];
+        drawn.share[k] = place->shares[k];
         KIRI_EACH_IN(i, sheet->vertexSkin.spans.data[drawn.vertex[k]]) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-            drawn.square += place.shares[k] * weight->value * ShareAt(sheet, &place, weight->frame);
+            drawn.square += place->shares[k] * weight->value * ShareAt(sheet, place, weight->frame);
         }
     }
     KIRI_ASSERT(drawn.square > 0.0);
     KIRI_NEXT(sheet->drawnPins) = drawn;
     return part;
-}
-
-/* Returns by how much the slope of the drawn surface at a point of a clamp, along `across`, differs from the clamp's. */
-static kiriVec3 MissingTurn(const kiriSheetData* sheet, const kiriPinData* clamp, kiriVec2 at, kiriVec2 across)
-{
-    const double step = sheet->grid.side;
-    kiriVec3 due = kiriVec3_AddScaled(kiriVec3_Scale(across.x, clamp->rotation.u), across.y, clamp->rotation.v);
-    kiriPointPlace place;
-    if (!kiriPoint_Find(sheet, kiriMesh_Snap(&sheet->mesh, at), &place)) {
-        return (kiriVec3){ 0 };
-    }
-    kiriVec3 here = kiriPoint_Drawn(sheet, &place);
-    kiriLatticePoint beside = kiriMesh_Snap(&sheet->mesh, kiriVec2_AddScaled(at, step, across));
-    kiriMesh_Shares(&sheet->mesh, place.triangle, beside, place.shares);
-    return kiriVec3_AddScaled(due, -1.0 / step, kiriVec3_Sub(kiriPoint_Drawn(sheet, &place), here));
 }
 
 /* Lists the middle of a frame's share of a line. The patch leaves a clamp in the clamp's direction. */
@@ -650,20 +634,29 @@ static void ListDrawnLine(kiriSheetData* sheet, const kiriPinShare* pinned)
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
     kiriShift* shift = &sheet->seen.surface.detail.shifts.data[pinned->share.frame];
     RestLine line = RestLineOf(sheet, pin);
+    kiriPointPlace place;
     kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
     kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
     /* The line may be on an edge of the sheet: a little closer to the site is inside the material. */
     double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
     at = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
     double part = ListDrawn(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, at),
-                            HeldPoint(&line, pin->target, &pin->rotation, at));
+                            HeldPoint(&line, pin->target, &pin->rotation, at), &place);
     kiriVec2 left = { -line.along.y, line.along.x };
     double away = kiriVec2_Dot(way, left);
     shift->from = line.from;
     shift->across = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
     shift->reach = shift->reach == 0.0 ? 2.0 * kiriMax(fabs(away), sheet->grid.side) : -1.0;
-    if (pin->type == KIRI_PIN_CLAMP) {
-        shift->turn = kiriVec3_Scale(part, MissingTurn(sheet, pin, at, shift->across));
+    if (pin->type == KIRI_PIN_CLAMP && part > 0.0) {
+        /* The slope is of the triangle around the point, as drawn: so offsets that it has already count. */
+        const double step = sheet->grid.side;
+        const kiriVec2 n = shift->across;
+        kiriVec3 due = kiriVec3_AddScaled(kiriVec3_Scale(n.x, pin->rotation.u), n.y, pin->rotation.v);
+        kiriVec3 here = kiriPoint_Drawn(sheet, &place);
+        kiriLatticePoint beside = kiriMesh_Snap(&sheet->mesh, kiriVec2_AddScaled(at, step, n));
+        kiriMesh_Shares(&sheet->mesh, place.triangle, beside, place.shares);
+        kiriVec3 is = kiriVec3_Scale(1.0 / step, kiriVec3_Sub(kiriPoint_Drawn(sheet, &place), here));
+        shift->turn = kiriVec3_Scale(part, kiriVec3_Sub(due, is));
     }
 }
 
@@ -675,7 +668,8 @@ static void ListAllDrawn(kiriSheetData* sheet, double dt)
         const kiriPinData* pin = &sheet->pins.data[i];
         if (IsAwakePoint(sheet, i) && 10.0 * pin->stiffness >= kiriPins_Stiffness(sheet)) {
             kiriVec3 given = kiriMat3_Mul(pin->anchor.give, kiriVec3_Scale(-dt * dt, pin->bore.force));
-            ListDrawn(sheet, sheet->layout.pinFrame.data[i], pin->at, kiriVec3_Add(pin->target, given));
+            kiriPointPlace place;
+            ListDrawn(sheet, sheet->layout.pinFrame.data[i], pin->at, kiriVec3_Add(pin->target, given), &place);
             sheet->seen.surface.detail.shifts.data[sheet->layout.pinFrame.data[i]].reach = -1.0;
         }
     }
