@@ -277,7 +277,7 @@ var namesModel = map[Model]string{
 
 func (v Model) String() string { return namesModel[v] }
 
-// The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).
+// The surface between the frames, which blades and contacts meet (manual, sheets).
 type Skinning int32
 
 const (
@@ -2922,7 +2922,7 @@ var poolPinSetTarget pool[struct {
 
 // Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 // (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+// moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetTarget(target [3]float32) error {
 	if err := p.World.check(); err != nil {
 		return err
@@ -2945,7 +2945,7 @@ var poolPinSetPose pool[struct {
 
 // Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 // (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-// moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+// moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 func (p Pin) SetPose(target [3]float32, rotation [9]float32) error {
 	if err := p.World.check(); err != nil {
 		return err

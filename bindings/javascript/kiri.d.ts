@@ -168,7 +168,7 @@ export enum Model {
     Points = 2,
 }
 
-/** The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
+/** The surface between the frames, which blades and contacts meet (manual, sheets). */
 export enum Skinning {
     /** each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     Linear = 0,
@@ -1621,13 +1621,13 @@ export class Pin {
     destroy(): ResultCode;
     /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
      *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-     *  KIRI_ERROR_ARGUMENT: a point. */
+     *  later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+     *  point. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
      *  material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-     *  later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-     *  KIRI_ERROR_ARGUMENT: a point. */
+     *  later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+     *  point. */
     setPose(target: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
     /** Sets the force (N) that breaks a pin of any type; 0: it never breaks. */
     setBreakForce(breakForce: number): ResultCode;

@@ -1642,7 +1642,7 @@ end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
@@ -1652,7 +1652,7 @@ end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 function Pin:setPose(target, rotation)
     local world = self.world
     local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))

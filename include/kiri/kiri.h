@@ -321,7 +321,7 @@ enum kiriModel {
     KIRI_MODEL_POINTS = 2  /* affine frames, strains at integration points, as in the paper. Thin sheets hardly bend */
 };
 
-/* The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets). */
+/* The surface between the frames, which blades and contacts meet (manual, sheets). */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* patches bend and stretch as their neighbours lie: no bumps at the frames */
@@ -781,7 +781,7 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
 
 /* Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
    (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
-   moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point. */
+   moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 KIRI_API kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9]);
 

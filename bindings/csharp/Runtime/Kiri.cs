@@ -1496,8 +1496,8 @@ namespace Kiri
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-        /// KIRI_ERROR_ARGUMENT: a point.</summary>
+        /// later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+        /// point.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target), "Pin.SetTarget");
@@ -1505,8 +1505,8 @@ namespace Kiri
 
         /// <summary>Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         /// material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        /// later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-        /// KIRI_ERROR_ARGUMENT: a point.</summary>
+        /// later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+        /// point.</summary>
         public void SetPose(Float3 target, Float9 rotation)
         {
             World.Check(Native.kiriPin_SetPose(World.Handle, Id, (float*)&target, (float*)&rotation), "Pin.SetPose");

@@ -472,7 +472,7 @@ namespace Kiri
         Points = 2,
     }
 
-    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).</summary>
+    /// <summary>The surface between the frames, which blades and contacts meet (manual, sheets).</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>

@@ -1233,14 +1233,14 @@ function Sheet:hingeLine(from, to) end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks
 function Pin:setTarget(target) end
 
 --- Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's material
 --- (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and later. The pin
---- moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+--- moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
 ---@param target number[]|ffi.cdata*
 ---@param rotation number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks

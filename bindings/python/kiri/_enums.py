@@ -106,7 +106,7 @@ class Model(_enum.IntEnum):
 
 
 class Skinning(_enum.IntEnum):
-    """The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets)."""
+    """The surface between the frames, which blades and contacts meet (manual, sheets)."""
     LINEAR = 0
     SMOOTH = 1
 

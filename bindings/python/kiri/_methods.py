@@ -555,16 +555,16 @@ class Pin:
     def set_target(self, target: Numbers) -> int:
         """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-        KIRI_ERROR_ARGUMENT: a point.
+        later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+        point.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 
     def set_pose(self, target: Numbers, rotation: Numbers) -> int:
         """Set the target of the pin's point, or of the middle of its line (m, world), and the rotation of a line's
         material (columns: directions of u, v, normal; planar: about the normal), for the end of the next tick and
-        later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it holds the visible surface. SetPose,
-        KIRI_ERROR_ARGUMENT: a point.
+        later. The pin moves there evenly. It is drawn at its pin (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a
+        point.
         """
         return self.world.call('kiriPin_SetPose', self.id, core.vector(target, 3), core.vector(rotation, 9))
 

@@ -1420,13 +1420,13 @@ unsafe extern "C" {
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
-    /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
-    /// holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+    /// the end of the next tick and later. The pin moves there evenly. It is drawn at its pin
+    /// (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
-    /// the end of the next tick and later. The pin moves there evenly. With KIRI_SKINNING_SMOOTH it
-    /// holds the visible surface. SetPose, KIRI_ERROR_ARGUMENT: a point.
+    /// the end of the next tick and later. The pin moves there evenly. It is drawn at its pin
+    /// (manual, sheets). SetPose, KIRI_ERROR_ARGUMENT: a point.
     pub fn kiriPin_SetPose(world: *mut kiriWorld, pin: kiriPin, target: *const f32, rotation: *const f32) -> kiriResult;
     /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn kiriPin_SetBreakForce(world: *mut kiriWorld, pin: kiriPin, breakForce: f32) -> kiriResult;

@@ -497,7 +497,7 @@ impl Model {
     }
 }
 
-/// The surface between the frames, which blades, contacts, pins and clamps meet (manual, sheets).
+/// The surface between the frames, which blades and contacts meet (manual, sheets).
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -3400,8 +3400,8 @@ impl Pin {
 
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
-    /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
-    /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
+    /// the end of the next tick and later. The pin moves there evenly. It is drawn at its pin
+    /// (manual, sheets). SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_target(self, world: &mut World, target: impl Into<[f32; 3]>) -> Result<()> {
         let target: [f32; 3] = target.into();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3411,8 +3411,8 @@ impl Pin {
 
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for
-    /// the end of the next tick and later. The pin moves there evenly. With [`Skinning::Smooth`] it
-    /// holds the visible surface. SetPose, [`ResultCode::ErrorArgument`]: a point.
+    /// the end of the next tick and later. The pin moves there evenly. It is drawn at its pin
+    /// (manual, sheets). SetPose, [`ResultCode::ErrorArgument`]: a point.
     pub fn set_pose(self, world: &mut World, target: impl Into<[f32; 3]>, rotation: impl Into<[f32; 9]>) -> Result<()> {
         let target: [f32; 3] = target.into();
         let rotation: [f32; 9] = rotation.into();
