@@ -112,7 +112,8 @@ COMPILE_C = $(CC) -std=c99 $(FLAGS) $(CFLAGS)
 COMPILE_CXX = $(CXX) -std=c++14 $(FLAGS) $(CXXFLAGS)
 LINK = $(CXX) $(FLAGS_$(config)) $(if $(filter coverage,$(config)),$(FLAGS_counted)) $(LDFLAGS)
 
-LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.c src/*/*.cpp))
+# What takes longest to compile begins first.
+LIBRARY_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard src/*/*.cpp src/*/*.c))
 SAMPLE_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/*.c))
 GAME_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/games/*.c samples/games/*.cpp))
 # Sheets that touch bodies of Box2D: for its sample, the game Net, and their tests.
@@ -146,10 +147,9 @@ VIEW := $(BUILD)/samples/kiri-view
 # Debian's own python has Debian's python3-cffi.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
-# What is made from the header, and the programs of the manual, once.
-DESCRIBED_CHECK := $(if $(filter release,$(config)),described manual-programs)
-# Tests of the Makefile itself, and of what it installs: once.
-BUILD_CHECK := $(if $(filter release,$(config)),builds consumers exported renderers)
+# What is made from the header, the programs of the manual, tests of the Makefile itself and of what it installs, and
+# what does not depend on the options of the compiler: once. Those that take longest begin first.
+ONCE := $(if $(filter release,$(config)),consumers manual-programs exported builds example headers described unrun float-guards check renderers)
 
 # What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
 # commands, the library on one with the lists of objects, and all that is linked on the library.
@@ -365,8 +365,8 @@ manual-golden: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
 # Those that take longest begin first: what is begun last keeps one processor, and the others wait.
 TEST_RUNS := $(patsubst $(BUILD)/tests/%,run-%,$(TESTS))
-LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,blade estimate extremes games joined layout parting part_budget piece \
-             promises refusals samples saves seam seen sleep swipe tear time update))
+LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,samples layout extremes games refusals update saves load promises estimate \
+             sleep fold seen tear time parting joined net box2d part_budget blade piece seam scarce toybox swipe))
 
 .PHONY: $(TEST_RUNS) run-tests coverage
 
@@ -396,8 +396,8 @@ run-sweep_saves: $(BUILD)/tests/sweep_saves
 	@if $< 34 36 1 $(if $(filter sanitize,$(config)),1000,200) > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-all-tests: run-sweep_saves $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) \
-    $(RUN) $(BOX2D) $(PLAY) check unrun headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
+all-tests: run-sweep_saves $(LONG_RUNS) $(ONCE) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) \
+    $(RUN) $(BOX2D) $(PLAY) exports $(PYTHON_CHECK)
 	@echo "all tests passed ($(config))"
 
 # The input of fuzzers and the recordings have all calls; Python loads no sanitized library.
@@ -524,6 +524,11 @@ $(BUILD)/link.txt: FORCE
 
 ifeq ($(config),coverage)
 $(LIBRARY_OBJECTS): private FLAGS += $(FLAGS_counted)
+endif
+
+# Their loops are in the library: a compiler takes half as long at -O1.
+ifneq ($(config),debug)
+$(TESTS:%=%.c.o): private FLAGS += -O1
 endif
 
 # Ticks spend no time in these: they are compiled for size.
