@@ -29,7 +29,7 @@ FIGURE(Table)
 TEST(AtRandom)
 {
     uint32_t seed = 98765;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < RUNS(40); ++i) {
         Extreme e = Extreme_Random(&seed);
         AssertWell(&e);
     }

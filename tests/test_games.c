@@ -152,8 +152,7 @@ typedef struct Recorded {
     GameStatus end;
 } Recorded;
 
-/* The game plays itself; what it did is kept. */
-/* The game plays itself, after `wait` ticks in which nobody does anything. */
+/* The game plays itself, after `wait` ticks in which nobody does anything, and its events are kept. */
 static void PlayDemo(const GameType* type, int32_t level, int32_t wait, int32_t ticks, Recorded* recorded)
 {
     static Play play;
@@ -305,13 +304,12 @@ FIGURE(CurtainIsWon)
 {
     static Recorded recorded;
     int32_t won = 0;
-    for (int32_t i = 0; i < 4; i++) {
+    for (int32_t i = 0; i < 4 && won == 0; i++) {
         PlayDemo(&curtainGame, 1 + i, 0, 12 * GAME_RATE, &recorded);
         won += recorded.end.state == GAME_WON;
         assert_true(recorded.end.state != GAME_WON || recorded.end.score > 90);
     }
-    print_message("the demo wins %d of 4 curtains\n", won);
-    assert_true(won >= 1);
+    assert_int_equal(won, 1);
 }
 
 /* Mesa keeps its buffers of a picture. */

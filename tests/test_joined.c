@@ -158,7 +158,7 @@ TEST(SameInTheEnd)
     static const kiriBudget budgets[] = { { 16, 6, 4, 0 },     { 40, 60, 20, 0 }, { 100, 400, 100, 0 },
                                           { 0, 1500, 400, 0 }, { 30, 0, 0, 0 },   { 0, 0, 50, 0 } };
     int32_t fewer = 0, added = 0, parted = 0;
-    for (uint32_t run = 1; run <= 36; ++run) {
+    for (uint32_t run = 1; run <= RUNS(36); ++run) {
         Outcome plain = DrawAtRandom(run, &none);
         const kiriBudget* budget = &budgets[run % (sizeof(budgets) / sizeof(*budgets))];
         Outcome limited = DrawAtRandom(run, budget);
@@ -172,7 +172,7 @@ TEST(SameInTheEnd)
         added += plain.counts.frames > plain.frames + plain.counts.pieces - 1;
         parted += plain.counts.pieces > 1;
     }
-    assert_true(fewer > 20 && added > 5 && parted > 10);
+    assert_true(fewer > RUNS(20) && added > RUNS(5) && parted > RUNS(10));
 }
 
 /* ---- Lips part soon ---- */

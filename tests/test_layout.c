@@ -422,7 +422,7 @@ TEST(SpiralsNeverFreeze)
 {
     static const int32_t counts[2] = { 24, 40 };
     static const double rounds[8] = { 2.0, 2.5, 3.0, 3.5, 4.0, 4.85, 4.5, 4.95 };
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < RUNS(8); ++k) {
         static float were[3 * 8000];
         double turns = rounds[k];
         int32_t systems = 0, still = 0;

@@ -131,7 +131,7 @@ FIGURE(ClampAcross)
 /* ---- End load ---------------------------------------------------------------------------------------------------- */
 
 /* Sze, Liu, Lo 2004, section 3.1: how far the tip moves in and down under a shear force P at the end. */
-TEST(EndLoad)
+FIGURE(EndLoad)
 {
     static const double cases[2][3] = { { 2.0, 1.604, 4.933 }, { 4.0, 3.286, 6.698 } };
     const Strip strip = { 10.0, 1.0, 0.1, 1.2e6, 0.1, 9 };
@@ -362,7 +362,7 @@ TEST(ReactionsInMotion)
         HoldSheet(&host, sheet, k % HOLDS);
         host.every = 50;
         double worst = 0.0, weight = Host_Totals(&host, sheet).mass * (double)9.81f;
-        for (int i = 0; i < 40; ++i) {
+        for (int i = 0; i < RUNS(40); ++i) {
             double force[3], torque[3];
             kiriTotals before = Host_Totals(&host, sheet);
             OK(Host_Tick(&host, dt, 2));
@@ -478,7 +478,7 @@ TEST(PressureBetweenSupports)
 
 /* A strip that is pulled along, and one that is pushed aside in its plane, give way by F L / (E h W) and by
    F L^3 / (3 E I) and shear, whether a clamp or a hinge holds them. */
-TEST(PullAndPush)
+FIGURE(PullAndPush)
 {
     const float tip[2] = { STRIP_LENGTH, 0.5f * STRIP_WIDTH };
     for (int k = 0; k < 8; ++k) {

@@ -56,7 +56,7 @@ TEST(NothingWinsNothing)
     for (int level = 1; level <= netGame.levels; ++level) {
         Play play;
         assert_true(Play_Start(&play, &netGame, level));
-        for (int tick = 0; tick < 300; ++tick) {
+        for (int tick = 0; tick < RUNS(300); ++tick) {
             assert_true(Play_Tick(&play));
         }
         assert_int_equal(StatusOf(play).state, GAME_PLAYING);

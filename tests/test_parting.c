@@ -507,7 +507,7 @@ TEST(WaitingChangesNothing)
         Wait wait = StartWait(&hosts[k], &budgets[k]);
         kiriResult expected = k == 0 ? KIRI_PENDING : KIRI_OK, result;
         kiriSheet detached = 1;
-        kiriEvent event;
+        kiriEvent event = { 0 };
         assert_int_equal(kiriFrame_DestroyPiece(hosts[k].world, wait.frames[0]), expected);
         assert_int_equal(kiriFrame_DetachPiece(hosts[k].world, wait.frames[1], &detached), expected);
         assert_true((detached == 0) == (k == 0));
@@ -713,7 +713,7 @@ TEST(WaitingIsPatient)
     assert_int_equal(result, KIRI_OK);
     assert_int_equal(Host_SheetCount(&host), 2);
     Host_Stop(&host);
-    for (int32_t at = 0; !isDone; at += IS_SANITIZED ? 9 : 3) {
+    for (int32_t at = 0; !isDone; at += IS_SANITIZED ? 13 : 5) {
         assert_int_equal(RunWait(&host, &wait, ticks, at, &result), ticks);
         isDone = result == KIRI_OK;
         assert_true(isDone || result == KIRI_ERROR_MEMORY);

@@ -486,7 +486,7 @@ static double RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach)
 
 TEST(MotionGoesOn)
 {
-    for (uint32_t run = 1; run <= RUNS(18); ++run) {
+    for (uint32_t run = 1; run <= RUNS(12); ++run) {
         uint32_t seed = 401u * run;
         kiriSheetDef def = AnyDef(&seed);
         def.velocity[0] = 0.3f;

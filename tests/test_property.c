@@ -1,7 +1,7 @@
 /* A thousand random cuts through one sheet. The world is validated after every third tick. */
 #include "host.h"
 
-enum { COLUMNS = 12, CUTS = 1000, CUTS_A_TICK = 10, FRAMES = 4 };
+enum { COLUMNS = 12, CUTS = RUNS(1000), CUTS_A_TICK = 10, FRAMES = 4 };
 
 /* ---- What must hold ---- */
 
@@ -87,8 +87,7 @@ static uint64_t Run(uint32_t seed, bool check)
                       (int)counts.frames);
         assert_true(counts.pieces > 10); /* or the cuts were too tame to show anything */
     }
-    uint64_t hash = Host_Hash(&host);
-    return hash;
+    return Host_Hash(&host);
 }
 
 TEST(RandomCuts)

@@ -153,7 +153,7 @@ TEST(MomentumIsKept)
     double momentum = 0.0, energy = -1.0;
     int32_t commits = 0;
     limited = 0;
-    for (int32_t number = 0; number < 36; ++number) {
+    for (int32_t number = 0; number < RUNS(36); ++number) {
         Probe probe;
         uint32_t seed = 77u + (uint32_t)number;
         Case c = { number % 3, number % 4 == 3, 8 + number, 1, number % 2 == 0 ? 1.0 : 0.0, 0.0 };
@@ -168,7 +168,7 @@ TEST(MomentumIsKept)
     }
     printf("%d commits: momentum jumps by up to %.1e, energy rises by up to %.1e; %d commits limited\n", commits,
            momentum, energy, limited);
-    assert_true(commits > 2000 && limited < commits / 10);
+    assert_true(commits > RUNS(2000) && limited < commits / 10);
     assert_true(momentum < 1e-9 && energy < 1e-9);
 }
 

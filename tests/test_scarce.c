@@ -150,8 +150,10 @@ static void TickPoorly(Scene* scene, uint32_t* seed)
 {
     int64_t left = Random(seed) % 4;
     kiriResult result = Try(scene, false, left);
-    while (result == KIRI_ERROR_MEMORY) {
-        CheckWorld(scene);
+    for (int32_t tries = 0; result == KIRI_ERROR_MEMORY; ++tries) {
+        if (!IS_SANITIZED || (scene->tick + tries) % 7 == 0) {
+            CheckWorld(scene);
+        }
         left += 1 + Random(seed) % 12;
         result = Try(scene, true, left);
     }
@@ -259,7 +261,7 @@ static void RunBoth(const SceneType* type)
 
 static bool IsMeant(const char* name)
 {
-    static const char* const some[] = { "bunny", "rubber", "flat", "fallingguy" };
+    static const char* const some[] = { "bunny", "flat", "rubber", "fallingguy" };
     bool isSome = false;
     for (int i = 0; i < RUNS(4); ++i) {
         isSome = isSome || strcmp(name, some[i]) == 0;

@@ -253,7 +253,7 @@ static void MoveSleeve(int32_t preset, int32_t skinning, int32_t columns)
 
 TEST(Sleeve)
 {
-    for (int32_t k = 0; k < 8; ++k) {
+    for (int32_t k = 0; k < 8; k += IS_SANITIZED ? 3 : 1) { /* each material, skinning and count once */
         MoveSleeve(k < 4 ? KIRI_MATERIAL_COTTON : KIRI_MATERIAL_PAPER, k % 2, k % 4 < 2 ? 24 : 17);
     }
 }

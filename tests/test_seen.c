@@ -121,7 +121,6 @@ TEST(AsWrittenAnew)
             int32_t asleep = CountAsleep(&host, sheet), pieces = Host_Counts(&host, sheet).pieces;
             both += asleep > pieces / 2 && asleep < pieces;
         }
-
         assert_true(both > TICKS / 4);
     }
 }
