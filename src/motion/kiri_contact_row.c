@@ -1045,7 +1045,6 @@ typedef struct Pinned {
     bool isPinned;         /* only pins, contacts, gravity and forces act */
     kiriVec3 asked, given; /* impulse of contacts: from momentum and pins; from the contacts themselves */
     double pressed;        /* sum of the magnitudes of contact impulses */
-    double held;           /* N/m: stiffness of all its pins */
     double more;           /* ratio of the true impulse of contacts to `given`; 1 if unknown */
 } Pinned;
 
@@ -1054,17 +1053,12 @@ static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
     double part = solver->stepping.part;
     Pinned sum = { .isPinned = !kiriSystem_HasWind(system) && system->clampCount == 0 && !solver->isHeld, .more = 1.0 };
     KIRI_TIMES(f, system->frameCount) {
-        const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
-        kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
-        kiriVec3 change = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
-        change = kiriVec3_AddScaled(change, -solver->dt, kiriVec3_Add(gravity, before->force));
-        sum.asked = kiriVec3_Add(sum.asked, change);
+        sum.asked = kiriVec3_Add(sum.asked, kiriSolver_GainOf(solver, system, f));
     }
     KIRI_TIMES(k, system->pinCount) {
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
         sum.asked = kiriVec3_AddScaled(sum.asked, part * pin->stiffness, off);
-        sum.held += pin->stiffness;
     }
     KIRI_EACH(kiriContactStep, contact, solver->contacts) {
         if (kiriContact_IsMutual(contact)) {
@@ -1152,41 +1146,20 @@ static double LimitMore(const kiriSolver* solver, double more)
 }
 
 /* Gives yield rows the impulses of contacts in the step. For a pinned body these follow from its momentum and its pins,
-   as far as obstacles can receive them. The pins get the rest, in proportion to their stiffness, as if the body were
-   shifted slightly: pins are stiff, and if a frame turns in the last system, their lengths differ from those in the
-   system. */
-static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
+   as far as obstacles can receive them. Then writes impulses, and displacements of the planes. */
+void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    Pinned sum = SumPinned(solver, system);
-    FindMore(solver, &sum);
+    Pinned sum = { .more = 1.0 };
+    if (solver->contacts.count > 0 && system->pinCount > 0) {
+        sum = SumPinned(solver, system);
+        FindMore(solver, &sum);
+    }
     GivePushes(solver, system, sum.more > 1.0);
     sum.more = LimitMore(solver, sum.more);
     KIRI_EACH_WHILE(sum.more > 1.0, kiriContactStep, contact, solver->contacts) {
         Give(solver, system, contact, sum.more - 1.0);
     }
     solver->touch.keepForces *= sum.more;
-    sum.given = kiriVec3_Scale(sum.more, sum.given);
-    bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
-    KIRI_TIMES_WHILE(isBalanced, k, system->pinCount) {
-        kiriReaction* reaction = system->pins[k].reaction;
-        kiriVec3 left = kiriVec3_Sub(sum.asked, sum.given);
-        if (reaction != NULL) {
-            kiriVec3* impulse = &reaction->impulse.force;
-            *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
-        }
-    }
-}
-
-/* Writes the impulses of the step first, then the displacements of the planes. */
-void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    if (solver->contacts.count > 0 && system->pinCount > 0) {
-        BalancePinned(solver, system);
-    } else {
-        KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-            Give(solver, system, contact, 1.0);
-        }
-    }
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriContactRow* row = step->row;
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));

@@ -18,7 +18,7 @@ typedef struct kiriReaction {
     kiriWrench impulse; /* since the start of the tick */
     kiriWrench gain;    /* impulse of the last step */
     kiriWrench pull;    /* force at the end of the last step; history of this reaction, as in kiriHistory */
-    kiriWrench now;     /* force at the end of the current step */
+    kiriWrench solved, now; /* force in the current step: of the last system, and of the systems so far */
     kiriVec3 offset;    /* m; spring: of its target, see kiriPins_Keep */
 } kiriReaction;
 

@@ -916,9 +916,9 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
     if (done < 0 || !IsReadable(solver, system.frameCount)) {
         return -1;
     }
-    kiriSolver_AddReactions(solver, &system);
-    KeepFlow(solver, &system);
     kiriSolver_EndContacts(solver, &system);
+    kiriSolver_EndReactions(solver, &system);
+    KeepFlow(solver, &system);
     WriteFrames(solver, &system);
     KIRI_TIMES(k, system.clampCount) {
         solver->clampRows.data[k]->start = solver->clampRows.data[k]->pose;

@@ -766,16 +766,16 @@ void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system);
 void kiriStitches_Solve(const kiriSolver* solver, const kiriSystem* system);
 void kiriStitches_TakeForces(const kiriSolver* solver, const kiriSystem* system);
 
-/* Returns the force of the stitch on its first point at these poses, N. */
-kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses);
-
 /* Returns the moment of the hinge on a member, N m. */
 kiriVec3 kiriStitch_Moment(const kiriStitchRow* row, int32_t member, const kiriPose* poses);
 
 /* ---- Reactions (kiri_step.c) ---- */
 
-/* Adds the reactions of pins, clamps and holds in the step, from the gradient of the objective at its end. */
-void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system);
+/* Returns the impulse that changed a frame's momentum in the step, without gravity and the host's force, N s. */
+kiriVec3 kiriSolver_GainOf(const kiriSolver* solver, const kiriSystem* system, int32_t f);
+
+/* Adds the impulses of pins, clamps and holds in the step to their reactions. Call it after EndContacts. */
+void kiriSolver_EndReactions(kiriSolver* solver, const kiriSystem* system);
 
 KIRI_C_END
 

@@ -693,8 +693,7 @@ static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k
     }
 }
 
-/* Measures the strains of an element at the poses, and J, their derivatives by the unknowns of its frames: zero for
-   held frames. */
+/* Measures the strains of an element at the poses, and J, their derivatives by the unknowns of its frames. */
 static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     size_t bytes = sizeof(double) * (size_t)solver->size;
@@ -714,11 +713,6 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
         KIRI_TIMES(n, kiriElement_StrainCount(system, k) * count) {
             kiriSolver_Reduce(solver, &solver->rows.data[n], &J[solver->size * n]);
-        }
-    }
-    KIRI_TIMES_WHILE(solver->isHeld, m, count) {
-        KIRI_TIMES_WHILE(system->frames[solver->members.data[m]].held, e, kiriElement_StrainCount(system, k)) {
-            memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
     bool isTraced = kiriElement_CornerCount(system) > 0 && isRigidLink;
@@ -759,19 +753,24 @@ static double TautnessOf(const kiriSolver* solver, const kiriLink* link, const d
     return isTaut ? KIRI_TAUTNESS * (stiffness[KIRI_STRETCH] * least) / link->length : 0.0;
 }
 
-static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
+/* The linear model of an element at the poses. Its derivatives are in solver->J, its frames in solver->members. */
+typedef struct ElementModel {
+    int32_t count; /* frames */
+    int rows;
+    double flow; /* J */
+    double pulling[KIRI_MOST_STRAINS], springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
+} ElementModel;
+
+static void LinearizeElement(kiriSolver* solver, const kiriSystem* system, int32_t k, ElementModel* model)
 {
     const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
     const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
     const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
-    int32_t count = kiriElement_Members(system, k, solver->members.data);
-    double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k], pulling[KIRI_MOST_STRAINS];
-    double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
-    DeriveStrains(solver, system, k, count, strain);
-    double flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
-    kiriElement_TakeOffsets(system, k, strain, pulling);
-    AddElementEnergy(solver, system, k, strain, pulling, energy);
-    AddFlow(energy, flow);
+    double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k], *springs = model->springs;
+    model->count = kiriElement_Members(system, k, solver->members.data);
+    DeriveStrains(solver, system, k, model->count, strain);
+    model->flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
+    kiriElement_TakeOffsets(system, k, strain, model->pulling);
     /* Fold and stop of a link come last, and push only where they are not zero. But the line search halves every step
        that runs into a stop. So after a step that was cut short, the stops that it ran into resist as springs of no
        length. */
@@ -785,19 +784,34 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     }
     KIRI_TIMES(e, rows) {
         springs[e] = stiffness[e] + loss[e];
-        pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
+        model->pulls[e] = -stiffness[e] * model->pulling[e] - loss[e] * (strain[e] - start[e]);
     }
     if (always == KIRI_FOLD) {
         springs[KIRI_NORMAL_GAP] +=
-            TautnessOf(solver, kiriElement_Link(system, k), stiffness, start, strain, pulling);
+            TautnessOf(solver, kiriElement_Link(system, k), stiffness, start, strain, model->pulling);
     }
-    if (flow > 0.0) {
-        TurnFlow(solver, system, k, count, springs, pulls);
+    if (model->flow > 0.0) {
+        TurnFlow(solver, system, k, model->count, springs, model->pulls);
     }
     if (isStopping && strain[KIRI_NORMAL_STOP] == 0.0) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
-    kiriSolver_AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
+    model->rows = rows;
+}
+
+static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
+{
+    ElementModel model;
+    LinearizeElement(solver, system, k, &model);
+    AddElementEnergy(solver, system, k, &solver->nowStrain.data[KIRI_MOST_STRAINS * k], model.pulling, energy);
+    AddFlow(energy, model.flow);
+    KIRI_TIMES_WHILE(solver->isHeld, m, model.count) { /* held frames do not move */
+        KIRI_TIMES_WHILE(system->frames[solver->members.data[m]].held, e, model.rows) {
+            memset(&solver->J.data[solver->size * (model.count * e + m)], 0, sizeof(double) * (size_t)solver->size);
+        }
+    }
+    kiriSolver_AddSquares(solver, solver->members.data, model.count, solver->J.data, model.springs, model.pulls,
+                          model.rows);
 }
 
 static void AddSpring(kiriSolver* solver, const kiriSystem* system, const Spring* spring)
@@ -854,6 +868,202 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     AddHost(solver, system, solver->poses.data, &sum);
     solver->isAlong = false;
     return sum;
+}
+
+/* ---- Reactions ----------------------------------------------------------------------------------------------------
+
+   Forces of pins, clamps and holds are forces of the linear model of each system, as far as its step was taken. With the
+   inertia and the other forces the model is in balance. At the poses, stiff springs are wrong by what turned frames
+   leave. */
+
+/* Returns a reaction of the body by its number: of a pin, of a clamp, or of a held frame. Null: it is not computed. */
+static kiriReaction* ReactionAt(const kiriSolver* solver, const kiriSystem* system, int32_t n)
+{
+    int32_t clamp = n - system->pinCount, frame = clamp - system->clampCount;
+    KIRI_ASSERT(n >= 0 && frame < system->frameCount);
+    if (frame >= 0) {
+        return system->frames[frame].held ? &solver->sources.data[frame]->reaction : NULL;
+    }
+    return clamp >= 0 ? system->clamps[clamp].reaction : system->pins[n].reaction;
+}
+
+#define EACH_REACTION(reaction)                                                                                        \
+    KIRI_TIMES(n_, system->pinCount + system->clampCount + (solver->isHeld ? system->frameCount : 0))                  \
+        for (kiriReaction* reaction = ReactionAt(solver, system, n_); reaction != NULL; reaction = NULL)
+
+/* Converts a wrench about a frame's x to a wrench about another point. */
+static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 point)
+{
+    kiriVec3 arm = kiriVec3_Sub(x, point);
+    kiriWrench moved = { wrench->force, kiriVec3_Add(wrench->moment, kiriVec3_Cross(arm, wrench->force)) };
+    return moved;
+}
+
+/* Takes a wrench about x of a frame from its hold: the hold bears all but the frame's own forces. */
+static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
+{
+    if (system->frames[frame].held) {
+        kiriVec3 held = solver->before.data[frame].heldPosition;
+        wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
+        kiriWrench_Add(&solver->sources.data[frame]->reaction.solved, -1.0, &wrench);
+    }
+}
+
+/* Takes a force on a point of several frames from their holds. */
+static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                               int32_t count, kiriVec3 force)
+{
+    KIRI_TIMES(m, count) {
+        kiriVec3 arm = kiriSystem_Arm(system, members[m].frame, members[m].at, &solver->poses.data[members[m].frame]);
+        kiriVec3 part = kiriVec3_Scale(members[m].value, force);
+        TakeFromHold(solver, system, members[m].frame, (kiriWrench){ part, kiriVec3_Cross(arm, part) });
+    }
+}
+
+/* Takes from the holds of frames what an element does to them, and sets the force of a clamp. */
+static void SolveElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    int32_t count = kiriElement_Members(system, k, solver->members.data), size = solver->size;
+    bool isAny = clamp != NULL && clamp->reaction != NULL;
+    KIRI_TIMES(m, count) {
+        isAny |= system->frames[solver->members.data[m]].held != 0;
+    }
+    if (!isAny) {
+        return;
+    }
+    ElementModel model;
+    LinearizeElement(solver, system, k, &model);
+    KIRI_TIMES(e, model.rows) {
+        KIRI_TIMES(n, count * size) {
+            double move = solver->move.data[size * solver->members.data[n / size] + n % size];
+            model.pulls[e] -= model.springs[e] * solver->J.data[size * count * e + n] * move;
+        }
+    }
+    KIRI_TIMES(m, count) {
+        int32_t frame = solver->members.data[m];
+        const kiriMat3* A = &solver->poses.data[frame].A;
+        kiriWrench sum = { 0 };
+        KIRI_TIMES(e, model.rows) {
+            kiriFrameRow row = kiriSolver_Expand(solver, model.pulls[e], &solver->J.data[size * (count * e + m)]);
+            kiriWrench wrench = { row.by[0], row.by[1] };
+            if (kiriMechanics_IsAffine(&solver->mechanics)) {
+                wrench.moment = kiriVec3_Add(kiriVec3_Cross(A->u, row.by[1]), kiriVec3_Cross(A->v, row.by[2]));
+                wrench.moment = kiriVec3_Add(wrench.moment, kiriVec3_Cross(A->d, row.by[3]));
+            }
+            kiriWrench_Add(&sum, 1.0, &wrench);
+        }
+        if (clamp != NULL && clamp->reaction != NULL) {
+            clamp->reaction->solved = AboutPoint(&sum, solver->poses.data[frame].x, clamp->pose.x);
+        }
+        TakeFromHold(solver, system, frame, sum);
+    }
+}
+
+/* Finds the forces of the linear model after a system is solved. */
+static void SolveReactions(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_TIMES(k, system->pinCount) {
+        const kiriPinRow* pin = &system->pins[k];
+        const kiriContactMember member = { pin->frame, 1.0, pin->at };
+        kiriVec3 end = kiriVec3_Add(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data),
+                                    kiriSolver_MoveOf(solver, system, &member, 1));
+        kiriVec3 force = kiriVec3_Scale(pin->stiffness, kiriVec3_Sub(pin->target, end));
+        if (pin->reaction != NULL) {
+            pin->reaction->solved.force = force;
+        }
+        TakePointFromHolds(solver, system, &member, 1, force);
+    }
+    KIRI_EACH_STITCH(row, system) {
+        TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], row->solved);
+    }
+    KIRI_FROM_TO(k, solver->isHeld ? 0 : solver->elementCount - system->clampCount, solver->elementCount) {
+        SolveElement(solver, system, k);
+    }
+}
+
+/* Turns the force at the end of the step into an impulse by the step's scheme (kiri_frame.h), as inner forces are: so
+   impulses add up to the momentum of the frames. */
+static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
+{
+    kiriWrench gain = { 0 }, none = gain;
+    KIRI_ASSERT(stepping->part > 0.0);
+    kiriWrench_Add(&reaction->now, 1.0, &reaction->solved);
+    kiriWrench_Add(&gain, stepping->c, &reaction->gain);
+    kiriWrench_Add(&gain, stepping->l, &reaction->pull);
+    kiriWrench_Add(&gain, stepping->part, &reaction->now);
+    kiriWrench_Add(&reaction->impulse, 1.0, &gain);
+    reaction->gain = gain;
+    reaction->pull = reaction->now;
+    reaction->now = reaction->solved = none;
+}
+
+kiriVec3 kiriSolver_GainOf(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    KIRI_ASSERT(f >= 0 && f < system->frameCount);
+    const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
+    kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
+    kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
+    return kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force));
+}
+
+/* Adds the rest of the change of momentum to the reactions, in proportion to their size. A step that was cut short from
+   its start leaves a rest, and the limit of energy does. */
+static void BearRest(const kiriSolver* solver, const kiriSystem* system)
+{
+    kiriVec3 rest = { 0.0, 0.0, 0.0 };
+    double all = 0.0;
+    EACH_REACTION(reaction) {
+        rest = kiriVec3_Sub(rest, reaction->gain.force);
+        all += kiriVec3_Length(reaction->gain.force);
+    }
+    bool isKnown = all > 0.0 && !kiriSystem_HasWind(system);
+    KIRI_EACH_STITCH(row, system) {
+        isKnown = isKnown && row->solvers[0] != NULL && row->solvers[1] != NULL;
+    }
+    KIRI_EACH_WHILE(isKnown, const kiriContactStep, step, solver->contacts) {
+        double part = kiriContact_IsMutual(step) ? 0.0 : solver->stepping.part;
+        rest = kiriVec3_AddScaled(rest, -part, kiriContact_Force(solver, step));
+    }
+    KIRI_TIMES_WHILE(isKnown, f, system->frameCount) {
+        kiriVec3 gain = kiriSolver_GainOf(solver, system, f);
+        rest = kiriVec3_AddScaled(rest, system->frames[f].held ? 0.0 : 1.0, gain);
+    }
+    EACH_REACTION(reaction) {
+        double share = isKnown ? kiriVec3_Length(reaction->gain.force) / all : 0.0;
+        reaction->impulse.force = kiriVec3_AddScaled(reaction->impulse.force, share, rest);
+    }
+}
+
+void kiriSolver_EndReactions(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_EACH_STITCH(row, system) {
+        row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
+        KIRI_TIMES_WHILE(row->bending > 0.0, m, row->counts[0] + row->counts[1]) {
+            kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(row, m, solver->poses.data) };
+            TakeFromHold(solver, system, row->members[m].frame, turn);
+        }
+    }
+    KIRI_EACH_WHILE(solver->isHeld, const kiriContactStep, step, solver->contacts) {
+        TakePointFromHolds(solver, system, step->members, step->memberCount, kiriContact_Force(solver, step));
+    }
+    KIRI_TIMES_WHILE(solver->isHeld && kiriSystem_HasWind(system), f, system->frameCount) {
+        TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
+    }
+    EACH_REACTION(reaction) {
+        EndReaction(&solver->stepping, reaction);
+    }
+    BearRest(solver, system);
+    KIRI_TIMES_WHILE(solver->isHeld, f, system->frameCount) {
+        const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
+        const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
+        kiriVec3 spun = kiriVec3_Sub(kiriFrame_AngularMomentum(after, material),
+                                     kiriFrame_AngularMomentum(before, material));
+        kiriWrench own = { kiriSolver_GainOf(solver, system, f),
+                           kiriVec3_AddScaled(spun, -solver->dt, before->torque) };
+        own = AboutPoint(&own, solver->poses.data[f].x, before->heldPosition);
+        kiriWrench_Add(&solver->sources.data[f]->reaction.impulse, before->held ? 1.0 : 0.0, &own);
+    }
 }
 
 #define LONGEST_ITERATION_TURN 1.0 /* limit of a frame's turn in one Gauss-Newton step: a Cayley vector */
@@ -951,6 +1161,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
     kiriSolver_MoveContacts(solver, system);
     kiriStitches_Solve(solver, system);
+    SolveReactions(solver, system);
     StartSearch(solver, system);
     TryNewtonStep(solver, system);
     if (!search->isTaken && search->isFirst) {
@@ -965,6 +1176,12 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     ++search->solved;
     ++solver->solved;
     kiriStitches_TakeForces(solver, system);
+    double part = search->isTaken ? search->scale : 0.0;
+    EACH_REACTION(reaction) {
+        kiriWrench_Add(&reaction->now, -part, &reaction->now);
+        kiriWrench_Add(&reaction->now, part, &reaction->solved);
+        KIRI_CLEAR(&reaction->solved);
+    }
     kiriSolver_ReviewContacts(solver, system);
     return true;
 }
@@ -996,6 +1213,9 @@ static bool IsUnfinished(const kiriSolver* solver, int32_t done)
 static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_GuessContacts(solver, system);
+    EACH_REACTION(reaction) {
+        reaction->now = reaction->pull;
+    }
     solver->search.mayFlow = false;
     solver->search.start = kiriObjective_Evaluate(solver, system, solver->start.data);
     solver->search.isFirst = true;
@@ -1092,173 +1312,4 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
     KIRI_ASSERT(done <= iterations + KIRI_EXTRA_SYSTEMS);
     kiriSolver_HoldContacts(solver, system);
     return done;
-}
-
-/* ---- Reactions --------------------------------------------------------------------------------------------------- */
-
-static kiriWrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 point, kiriVec3 force)
-{
-    kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[frame].x), force) };
-    return wrench;
-}
-
-/* Converts a wrench about a frame's x to a wrench about another point. */
-static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 point)
-{
-    kiriVec3 arm = kiriVec3_Sub(x, point);
-    kiriWrench moved = { wrench->force, kiriVec3_Add(wrench->moment, kiriVec3_Cross(arm, wrench->force)) };
-    return moved;
-}
-
-/* Takes a wrench about x of a frame from its hold: the hold bears all but the frame's own forces. */
-static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
-{
-    if (system->frames[frame].held) {
-        kiriVec3 held = solver->before.data[frame].heldPosition;
-        wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
-        kiriWrench_Add(&solver->sources.data[frame]->reaction.now, -1.0, &wrench);
-    }
-}
-
-static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES(k, system->pinCount) {
-        const kiriPinRow* pin = &system->pins[k];
-        kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
-        const Spring spring = SpringOfPin(pin);
-        kiriVec3 force = ForceOf(&spring, point);
-        if (pin->reaction != NULL) {
-            pin->reaction->now.force = force;
-        }
-        TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
-    }
-}
-
-/* Takes a force on a point of several frames from their holds. */
-static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
-                               int32_t count, kiriVec3 force)
-{
-    KIRI_TIMES(m, count) {
-        kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, solver->poses.data);
-        kiriVec3 part = kiriVec3_Scale(members[m].value, force);
-        TakeFromHold(solver, system, members[m].frame, ForceAt(solver, members[m].frame, point, part));
-    }
-}
-
-/* Takes from the holds of frames what an element does to them, and adds the reaction of a clamp. */
-static void AddElementPulls(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
-    int32_t count = kiriElement_Members(system, k, solver->members.data);
-    double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
-    bool isAnyHeld = clamp != NULL;
-    KIRI_TIMES(m, count) {
-        isAnyHeld |= system->frames[solver->members.data[m]].held != 0;
-    }
-    if (!isAnyHeld) {
-        return;
-    }
-    kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
-    kiriElement_Flow(system, k, strain, true);
-    kiriElement_TakeOffsets(system, k, strain, pulling);
-    KIRI_TIMES(m, count) {
-        int32_t frame = solver->members.data[m];
-        const kiriMat3* A = &solver->poses.data[frame].A;
-        kiriWrench sum = { 0 };
-        KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
-            int32_t n = KIRI_MOST_STRAINS * k + e;
-            double change = strain[e] - solver->startStrain.data[n];
-            double pull = -solver->stiffness.data[n] * pulling[e] - solver->loss.data[n] * change;
-            const kiriVec3* by = solver->rows.data[count * e + m].by;
-            kiriVec3 torque = by[1];
-            if (kiriMechanics_IsAffine(&solver->mechanics)) {
-                torque = kiriVec3_Add(kiriVec3_Cross(A->u, by[1]), kiriVec3_Cross(A->v, by[2]));
-                torque = kiriVec3_Add(torque, kiriVec3_Cross(A->d, by[3]));
-            }
-            kiriWrench wrench = { by[0], torque };
-            kiriWrench_Add(&sum, pull, &wrench);
-        }
-        if (clamp != NULL && clamp->reaction != NULL) {
-            clamp->reaction->now = AboutPoint(&sum, solver->poses.data[frame].x, clamp->pose.x);
-        }
-        TakeFromHold(solver, system, frame, sum);
-    }
-}
-
-/* Adds the impulse that changed a held frame's momentum in the step, without gravity and the host's forces. */
-static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int32_t f)
-{
-    KIRI_ASSERT(f >= 0 && f < system->frameCount);
-    const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
-    kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
-    kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
-    const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
-    kiriVec3 turned =
-        kiriVec3_Sub(kiriFrame_AngularMomentum(after, material), kiriFrame_AngularMomentum(before, material));
-    kiriWrench wrench = { kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force)),
-                          kiriVec3_AddScaled(turned, -solver->dt, before->torque) };
-    wrench = AboutPoint(&wrench, solver->poses.data[f].x, before->heldPosition);
-    kiriWrench_Add(&solver->sources.data[f]->reaction.impulse, 1.0, &wrench);
-}
-
-/* Turns the force at the end of the step into an impulse by the step's scheme (kiri_frame.h), as inner forces are: so
-   impulses add up to the momentum of the frames. */
-static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
-{
-    kiriWrench gain = { 0 }, none = gain;
-    KIRI_ASSERT(stepping->part > 0.0);
-    if (reaction == NULL) {
-        return;
-    }
-    kiriWrench_Add(&gain, stepping->c, &reaction->gain);
-    kiriWrench_Add(&gain, stepping->l, &reaction->pull);
-    kiriWrench_Add(&gain, stepping->part, &reaction->now);
-    kiriWrench_Add(&reaction->impulse, 1.0, &gain);
-    reaction->gain = gain;
-    reaction->pull = reaction->now;
-    reaction->now = none;
-}
-
-static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES(k, system->pinCount) {
-        EndReaction(&solver->stepping, system->pins[k].reaction);
-    }
-    KIRI_TIMES(k, system->clampCount) {
-        EndReaction(&solver->stepping, system->clamps[k].reaction);
-    }
-    KIRI_TIMES(f, system->frameCount) {
-        if (system->frames[f].held) {
-            EndReaction(&solver->stepping, &solver->sources.data[f]->reaction);
-            AddMomentum(solver, system, f);
-        }
-    }
-}
-
-void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
-{
-    AddPinPulls(solver, system);
-    KIRI_EACH_STITCH(row, system) {
-        kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
-        row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
-        TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], force);
-        KIRI_TIMES_WHILE(row->bending > 0.0, m, row->counts[0] + row->counts[1]) {
-            kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(row, m, solver->poses.data) };
-            TakeFromHold(solver, system, row->members[m].frame, turn);
-        }
-    }
-    if (solver->isHeld) {
-        KIRI_EACH(const kiriContactStep, step, solver->contacts) {
-            TakePointFromHolds(solver, system, step->members, step->memberCount, kiriContact_Force(solver, step));
-        }
-        for (int32_t f = 0, end = kiriSystem_HasWind(system) ? system->frameCount : 0; f < end; ++f) {
-            if (system->frames[f].held) {
-                TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
-            }
-        }
-    }
-    KIRI_FROM_TO(k, solver->isHeld ? 0 : solver->elementCount - system->clampCount, solver->elementCount) {
-        AddElementPulls(solver, system, k);
-    }
-    EndReactions(solver, system);
 }
