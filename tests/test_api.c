@@ -171,22 +171,18 @@ TEST(Setups)
     static const float sizes[][2] = { { 0.3f, 0.3f }, { 1.5f, 1.0f }, { 0.03f, 0.6f }, { 5.12f, 0.02f } };
     static const float bad[][2] = { { 0.0f, 1.0f },  { 1.0f, -1.0f },        { NAN, 1.0f },     { 1.0f, NAN },
                                     { 2.6f, 0.01f }, { INFINITY, INFINITY }, { 1.0f, INFINITY } };
-    kiriSetup setup, refused = { .columns = 7 };
+    static const int32_t triangles[] = { 2 * 60 * 60, 2 * 60 * 40, 2 * 6 * 120, 2 * 1536 * 6 };
+    kiriSheetDef def, refused = { .maxFrames = 7 };
     for (int32_t k = 0; k < KIRI_SETUP_COUNT * 4; ++k) {
         const float* size = sizes[k % 4];
         START_HOST(host);
-        kiriSheetDef def = DefaultSheet();
         kiriSheet sheet;
-        OK(kiriGetSetup(k / 4, size[0], size[1], &setup));
-        def.material = setup.material;
-        def.model = setup.model;
-        def.skinning = setup.skinning;
-        def.gridResolution = setup.gridResolution;
-        def.frameCount = setup.frameCount;
-        def.iterations = setup.iterations;
-        assert_true(setup.columns >= 4 && setup.rows >= 4 && (setup.columns > setup.rows) == (size[0] > size[1]));
-        OK(kiriCreateRectangle(host.world, size[0], size[1], setup.columns, setup.rows, &def, &sheet));
-        OK(Host_Tick(&host, 1.0f / 60.0f, setup.substeps));
+        kiriMesh mesh;
+        OK(kiriGetSetup(k / 4, size[0], size[1], &def));
+        OK(kiriCreateRectangle(host.world, size[0], size[1], 0, 0, &def, &sheet));
+        OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+        assert_int_equal(mesh.triangleCount, triangles[k % 4]); /* three squares for two of the grid */
+        OK(Host_Tick(&host, 1.0f / 60.0f, 4));
     }
     for (int k = 0; k < 7; ++k) {
         assert_int_equal(kiriGetSetup(KIRI_SETUP_CARD, bad[k][0], bad[k][1], &refused), KIRI_ERROR_ARGUMENT);
@@ -194,7 +190,7 @@ TEST(Setups)
     assert_int_equal(kiriGetSetup(-1, 1.0f, 1.0f, &refused), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetSetup(KIRI_SETUP_COUNT, 1.0f, 1.0f, &refused), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetSetup(KIRI_SETUP_CARD, 1.0f, 1.0f, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(refused.columns, 7);
+    assert_int_equal(refused.maxFrames, 7);
 }
 
 TEST(WorldDefs)
@@ -389,6 +385,9 @@ TEST(CreateRectangle)
     assert_int_equal(kiriCreateRectangle(world, NAN, 1.0f, 2, 2, NULL, &sheet), KIRI_ERROR_ARGUMENT);
     assert_int_equal(sheet, 0);
     assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 4097, NULL, &sheet), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, -1, 0, NULL, &sheet), KIRI_ERROR_ARGUMENT);
+    kiriSheetDef noGrid = SheetOf(INT32_MIN, 5);
+    assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 0, 0, &noGrid, &sheet), KIRI_ERROR_ARGUMENT);
     assert_string_not_equal(kiriWorld_GetLastError(world), "");
     assert_int_equal(kiriCreateRectangle(world, 1.0f, 1.0f, 2, 2, NULL, NULL), KIRI_ERROR_ARGUMENT);
     kiriSheetDef unstamped = Host_SmallDef();

@@ -81,7 +81,8 @@ func test_defaults():
 	check(kiri.default_debug_draw().size > 0.0, "debug draw")
 	check(kiri.get_material(kiri.MATERIAL_PAPER).youngs_modulus > 1e8, "paper")
 	check(kiri.get_quality(kiri.QUALITY_FAST).substeps >= 1, "quality")
-	check(kiri.get_setup(kiri.SETUP_PAPER, 0.5, 0.4).frame_count > 1, "setup")
+	var setup = a_world().create_rectangle(0.3, 0.3, 0, 0, kiri.get_setup(kiri.SETUP_PAPER, 0.3, 0.3)).get_counts()
+	equal([setup.frames, setup.triangles], [25, 7200])
 	var made = kiri.fill_rectangle(1.0, 0.5, 4, 2)
 	equal(made.rest_positions.size(), 15)
 	equal(made.indices.size(), 48)
@@ -455,7 +456,7 @@ func some_handles_go():
 
 func test_errors():
 	var world = a_world()
-	equal(world.create_rectangle(1.0, 1.0, 0, 4), null)
+	equal(world.create_rectangle(1.0, 1.0, -1, 4), null)
 	fails(world, kiri.ERROR_ARGUMENT, "no columns")
 	var sheet = a_sheet(world)
 	equal(sheet.create_pin({"rest_point": Vector2(5, 5)}), null)

@@ -67,6 +67,13 @@ test("enums have names both ways", () => {
     assert.equal(ResultCode[-3], "ErrorId");
 });
 
+test("a setup is a def", () => inWorld((world) => {
+    const def = kiri.getSetup(kiri.SetupPreset.Paper, 0.3, 0.3);
+    def.axisV = [0, 0, 1];
+    const counts = world.createRectangle(0.3, 0.3, 0, 0, def).getCounts();
+    assert.deepEqual([counts.frames, counts.triangles], [25, 7200]);
+}));
+
 // tests/twin.c has the same scene.
 test("the same calls as in C give the same hash", () => inWorld((world) => {
     const sheet = world.createRectangle(1, 0.75, 16, 12, { position: [0, 0, 1], material: { youngsModulus: 1e7 },

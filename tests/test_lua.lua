@@ -40,6 +40,15 @@ end
 
 local tests = {}
 
+function tests.a_setup_is_a_def()
+    local world = kiri.World()
+    local def = kiri.getSetup(kiri.SETUP_PAPER, 0.3, 0.3)
+    def.axisV = {0, 0, 1}
+    local sheet = world:createRectangle(0.3, 0.3, 0, 0, def)
+    assert(frames_of(sheet) == 25 and sheet:getCounts().triangles == 7200)
+    world:destroy()
+end
+
 function tests.all_functions_are_there()
     local text = io.open("bindings/kiri.json"):read "*a"
     text = text:sub(text:find('"functions": [', 1, true), -1)

@@ -222,6 +222,9 @@ def test_functions_of_no_world():
     assert kiri.quality(kiri.KIRI_QUALITY_FAST).substeps >= 1
     raises(kiri.KiriError, kiri.material, 99)
     assert kiri.default_sheet_def().frameCount == 5 and not hasattr(kiri.default_sheet_def(), "restPositions")
+    setup = kiri.setup(kiri.SetupPreset.PAPER, 0.3, 0.3)
+    counts = kiri.World().create_rectangle(0.3, 0.3, **vars(setup)).counts()
+    assert (counts.frames, counts.triangles) == (25, 7200)
     positions, triangles = kiri.fill_rectangle(1, 1, 2, 2)
     assert kiri.World().create_sheet(positions, triangles).counts().triangles == 8
     raises(kiri.KiriError, kiri.fill_rectangle, 1, 1, 0, 2)

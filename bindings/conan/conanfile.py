@@ -1,4 +1,4 @@
-"""Kiri for Conan 2: `conan create bindings/conan`, and requires("kiri/[>=0.26]") in a project; kiri::kiri in CMake."""
+"""Kiri for Conan 2: `conan create bindings/conan`, and requires("kiri/[>=0.27]") in a project; kiri::kiri in CMake."""
 
 import re
 

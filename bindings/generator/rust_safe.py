@@ -460,7 +460,7 @@ class Call:
 
     def _out_struct(self, p, name):
         struct = self._s._structs[p["type"]]
-        life = "<'_>" if self._s._lends(struct) else ""
+        life = ("<'_>" if self._f["class"] else "<'static>") if self._s._lends(struct) else ""
         self._before.append(f"let mut {name} = MaybeUninit::<sys::{p['type']}>::uninit();")
         self._arguments.append(f"{name}.as_mut_ptr()")
         self._after.append(f"// SAFETY: it filled the struct.")

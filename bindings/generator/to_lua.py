@@ -125,7 +125,7 @@ class Lua:
     def _viewed(self):
         out = {parameter["type"] for function in self._of["functions"] for parameter in function["parameters"]
                if parameter["form"] == "struct" and parameter["direction"] == "out" and "Default" not in function["name"]}
-        return {name for name in out if any(field["form"] in ("pointer", "id") for field in self._structs[name]["fields"])}
+        return {name for name in out if "default" not in self._structs[name] and any(field["form"] in ("pointer", "id") for field in self._structs[name]["fields"])}
 
     # ---- Functions
 

@@ -6,7 +6,8 @@ import re
 import naming
 
 PARAMETERS = {"from": "start", "to": "end"}  # words of Python
-DEFAULTS = {"substeps": "1", "angularVelocity": "(0.0, 0.0, 0.0)", "torque": "(0.0, 0.0, 0.0)", "thickness": "0.0",
+DEFAULTS = {"substeps": "1", "kiriCreateRectangle.columns": "0", "kiriCreateRectangle.rows": "0",
+            "angularVelocity": "(0.0, 0.0, 0.0)", "torque": "(0.0, 0.0, 0.0)", "thickness": "0.0",
             "inertia": "(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)", "centerOfMass": "(0.0, 0.0, 0.0)",
             "kiriObstacle_SetPose.rotation": "(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)"}
 # By hand, for they are other in Python than in C.

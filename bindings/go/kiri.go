@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.26.0"
+const Version = "0.27.0"
 
 type ResultCode int32
 
@@ -230,7 +230,7 @@ var namesQualityPreset = map[QualityPreset]string{
 
 func (v QualityPreset) String() string { return namesQualityPreset[v] }
 
-// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
+// Kinds of sheets to begin with. They want a tick of 1/60 s with 4 substeps; curtain and card do with 2.
 type SetupPreset int32
 
 const (
@@ -537,27 +537,6 @@ type Quality struct {
 	// for the sheet def
 	Iterations int32
 	// for kiriWorld_Tick
-	Substeps int32
-}
-
-// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
-type Setup struct {
-	Material Material
-	// KIRI_MODEL_...
-	Model Model
-	// KIRI_SKINNING_...
-	Skinning Skinning
-	// for the sheet def, as the three above
-	GridResolution int32
-	// for the sheet def, as the three above
-	FrameCount int32
-	// for the sheet def, as the three above
-	Iterations int32
-	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
-	Columns int32
-	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
-	Rows int32
-	// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
 	Substeps int32
 }
 
@@ -1097,7 +1076,6 @@ var _ [0]struct{} = [unsafe.Sizeof(Event{}) - C.sizeof_kiriEvent]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Profile{}) - C.sizeof_kiriProfile]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Material{}) - C.sizeof_kiriMaterial]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Quality{}) - C.sizeof_kiriQuality]struct{}{}
-var _ [0]struct{} = [unsafe.Sizeof(Setup{}) - C.sizeof_kiriSetup]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PaperOptions{}) - C.sizeof_kiriPaperOptions]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(SheetSettings{}) - C.sizeof_kiriSheetSettings]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Fold{}) - C.sizeof_kiriFold]struct{}{}
@@ -1571,7 +1549,7 @@ var poolGetMaterial pool[struct {
 	material Material
 }]
 
-// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 func GetMaterial(preset MaterialPreset) (Material, error) {
 	var made0 Material
 	block := poolGetMaterial.take()
@@ -1587,7 +1565,7 @@ var poolGetQuality pool[struct {
 	quality Quality
 }]
 
-// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 func GetQuality(preset QualityPreset) (Quality, error) {
 	var made0 Quality
 	block := poolGetQuality.take()
@@ -1597,22 +1575,6 @@ func GetQuality(preset QualityPreset) (Quality, error) {
 		return made0, err
 	}
 	return answer.quality, nil
-}
-
-var poolGetSetup pool[struct {
-	setup Setup
-}]
-
-// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
-func GetSetup(preset SetupPreset, width float32, height float32) (Setup, error) {
-	var made0 Setup
-	block := poolGetSetup.take()
-	result := C.kiriGetSetup(C.int32_t(preset), C.float(width), C.float(height), (*C.kiriSetup)(unsafe.Pointer(&block.setup)))
-	answer := poolGetSetup.give(block)
-	if err := failure(nil, "GetSetup", result, false); err != nil {
-		return made0, err
-	}
-	return answer.setup, nil
 }
 
 var poolDefaultSheetDef pool[struct {
@@ -1667,12 +1629,32 @@ func (s Sheet) Destroy() error {
 	return nil
 }
 
+var poolGetSetup pool[struct {
+	def C.kiriSheetDef
+}]
+
+// Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of sheet and
+// its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy).
+func GetSetup(preset SetupPreset, width float32, height float32) (SheetDef, error) {
+	var made0 SheetDef
+	block := poolGetSetup.take()
+	result := C.kiriGetSetup(C.int32_t(preset), C.float(width), C.float(height), &block.def)
+	answer := poolGetSetup.give(block)
+	if err := failure(nil, "GetSetup", result, false); err != nil {
+		return made0, err
+	}
+	var made SheetDef
+	made.fromC(&answer.def)
+	return made, nil
+}
+
 var poolWorldCreateRectangle pool[struct {
 	sheet C.kiriSheet
 }]
 
 // Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-// and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as kiriCreateSheet.
+// and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read; null: the
+// defaults. A recording stores it as kiriCreateSheet.
 func (w *World) CreateRectangle(width float32, height float32, columns int32, rows int32, def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -3418,10 +3400,10 @@ var functions = map[string]string{
 	"kiriGetStageName":                ".GetStageName",
 	"kiriGetMaterial":                 ".GetMaterial",
 	"kiriGetQuality":                  ".GetQuality",
-	"kiriGetSetup":                    ".GetSetup",
 	"kiriDefaultSheetDef":             ".DefaultSheetDef",
 	"kiriCreateSheet":                 "World.CreateSheet",
 	"kiriDestroySheet":                "Sheet.Destroy",
+	"kiriGetSetup":                    ".GetSetup",
 	"kiriCreateRectangle":             "World.CreateRectangle",
 	"kiriSheet_GetSettings":           "Sheet.Settings",
 	"kiriSheet_SetSettings":           "Sheet.SetSettings",

@@ -49,6 +49,16 @@ func halved(def *WorldDef) (*World, Sheet) {
 	return world, sheet
 }
 
+func TestASetupIsADef(t *testing.T) {
+	world := must(NewWorld(nil))
+	defer world.Destroy()
+	def := must(GetSetup(SetupPaper, 0.3, 0.3))
+	counts := must(must(world.CreateRectangle(0.3, 0.3, 0, 0, &def)).Counts())
+	if counts.Frames != 25 || counts.Triangles != 7200 {
+		t.Error(counts)
+	}
+}
+
 func TestAllFunctionsAreThere(t *testing.T) {
 	var described struct{ Functions []struct{ Name string } }
 	text := must(os.ReadFile("../kiri.json"))

@@ -102,20 +102,6 @@ static const Field QUALITY_FIELDS[] = {
 
 static const Struct QUALITY = { "Quality", (int)sizeof(kiriQuality), 4, QUALITY_FIELDS, NULL, NULL };
 
-static const Field SETUP_FIELDS[] = {
-    { "material", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSetup, material), 1, 0, 0, 0, CLASS_NONE, &MATERIAL },
-    { "model", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, model), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "skinning", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, skinning), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "grid_resolution", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, gridResolution), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "frame_count", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, frameCount), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "iterations", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, iterations), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "columns", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, columns), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "rows", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, rows), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "substeps", TYPE_INT32, KIND_INT, (int)offsetof(kiriSetup, substeps), 1, 0, 0, 0, CLASS_NONE, NULL },
-};
-
-static const Struct SETUP = { "Setup", (int)sizeof(kiriSetup), 9, SETUP_FIELDS, NULL, NULL };
-
 static const Field PAPER_OPTIONS_FIELDS[] = {
     { "from_scratch", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriPaperOptions, fromScratch), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "popping", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriPaperOptions, popping), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -799,24 +785,6 @@ static const Parameter KIRI_GET_QUALITY_PARAMETERS[] = {
     { "quality", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &QUALITY, NULL },
 };
 
-static const Argument KIRI_GET_SETUP_ARGUMENTS[] = {
-    { "preset", KIND_INT, CLASS_NONE },
-    { "width", KIND_REAL, CLASS_NONE },
-    { "height", KIND_REAL, CLASS_NONE },
-};
-
-static int64_t Call_kiriGetSetup(void* const* a)
-{
-    return kiriGetSetup(*(int32_t*)a[0], *(float*)a[1], *(float*)a[2], a[3]);
-}
-
-static const Parameter KIRI_GET_SETUP_PARAMETERS[] = {
-    { "preset", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "width", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "height", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "setup", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SETUP, NULL },
-};
-
 static int64_t Call_kiriDefaultSheetDef(void* const* a)
 {
     kiriDefaultSheetDef(a[0]);
@@ -850,6 +818,24 @@ static int64_t Call_kiriDestroySheet(void* const* a)
 static const Parameter SHEET_DESTROY_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+};
+
+static const Argument KIRI_GET_SETUP_ARGUMENTS[] = {
+    { "preset", KIND_INT, CLASS_NONE },
+    { "width", KIND_REAL, CLASS_NONE },
+    { "height", KIND_REAL, CLASS_NONE },
+};
+
+static int64_t Call_kiriGetSetup(void* const* a)
+{
+    return kiriGetSetup(*(int32_t*)a[0], *(float*)a[1], *(float*)a[2], a[3]);
+}
+
+static const Parameter KIRI_GET_SETUP_PARAMETERS[] = {
+    { "preset", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "width", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "height", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "def", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SHEET_DEF, NULL },
 };
 
 static const Argument WORLD_CREATE_RECTANGLE_ARGUMENTS[] = {
@@ -2314,10 +2300,10 @@ const Method METHODS[] = {
     { CLASS_KIRI, "get_stage_name", "kiriGetStageName", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 1, 1, KIRI_GET_STAGE_NAME_ARGUMENTS, 1, KIRI_GET_STAGE_NAME_PARAMETERS, Call_kiriGetStageName, NULL },
     { CLASS_KIRI, "get_material", "kiriGetMaterial", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, KIRI_GET_MATERIAL_ARGUMENTS, 2, KIRI_GET_MATERIAL_PARAMETERS, Call_kiriGetMaterial, NULL },
     { CLASS_KIRI, "get_quality", "kiriGetQuality", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, KIRI_GET_QUALITY_ARGUMENTS, 2, KIRI_GET_QUALITY_PARAMETERS, Call_kiriGetQuality, NULL },
-    { CLASS_KIRI, "get_setup", "kiriGetSetup", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 3, 3, KIRI_GET_SETUP_ARGUMENTS, 4, KIRI_GET_SETUP_PARAMETERS, Call_kiriGetSetup, NULL },
     { CLASS_KIRI, "default_sheet_def", "kiriDefaultSheetDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_SHEET_DEF_PARAMETERS, Call_kiriDefaultSheetDef, NULL },
     { CLASS_WORLD, "create_sheet", "kiriCreateSheet", RETURNS_RESULT, KIND_OBJECT, CLASS_SHEET, 1, 1, WORLD_CREATE_SHEET_ARGUMENTS, 3, WORLD_CREATE_SHEET_PARAMETERS, Call_kiriCreateSheet, NULL },
     { CLASS_SHEET, "destroy", "kiriDestroySheet", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, SHEET_DESTROY_PARAMETERS, Call_kiriDestroySheet, NULL },
+    { CLASS_KIRI, "get_setup", "kiriGetSetup", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 3, 3, KIRI_GET_SETUP_ARGUMENTS, 4, KIRI_GET_SETUP_PARAMETERS, Call_kiriGetSetup, NULL },
     { CLASS_WORLD, "create_rectangle", "kiriCreateRectangle", RETURNS_RESULT, KIND_OBJECT, CLASS_SHEET, 5, 4, WORLD_CREATE_RECTANGLE_ARGUMENTS, 7, WORLD_CREATE_RECTANGLE_PARAMETERS, Call_kiriCreateRectangle, NULL },
     { CLASS_SHEET, "get_settings", "kiriSheet_GetSettings", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_SETTINGS_PARAMETERS, Call_kiriSheet_GetSettings, NULL },
     { CLASS_SHEET, "set_settings", "kiriSheet_SetSettings", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_SETTINGS_ARGUMENTS, 3, SHEET_SET_SETTINGS_PARAMETERS, Call_kiriSheet_SetSettings, NULL },

@@ -146,7 +146,7 @@ export enum QualityPreset {
     Count = 3,
 }
 
-/** Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
+/** Kinds of sheets to begin with. They want a tick of 1/60 s with 4 substeps; curtain and card do with 2. */
 export enum SetupPreset {
     Curtain = 0,
     Paper = 1,
@@ -458,27 +458,6 @@ export class Quality {
     /** for the sheet def */
     iterations: number;
     /** for World.tick */
-    substeps: number;
-}
-
-/** Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
-export class Setup {
-    material: Material;
-    /** KIRI_MODEL_... */
-    model: Model;
-    /** KIRI_SKINNING_... */
-    skinning: Skinning;
-    /** for the sheet def, as the three above */
-    gridResolution: number;
-    /** for the sheet def, as the three above */
-    frameCount: number;
-    /** for the sheet def, as the three above */
-    iterations: number;
-    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
-    columns: number;
-    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
-    rows: number;
-    /** for kiriCreateRectangle; for World.tick with a dt of 1/60 s */
     substeps: number;
 }
 
@@ -1297,14 +1276,15 @@ export function fitBudget(profile: ProfileGiven, microseconds: number, budget: B
 /** Returns the name of a stage; "" for another number. */
 export function getStageName(stage: Stage): string;
 
-/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
+/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_... */
 export function getMaterial(preset: MaterialPreset, into?: Material): Material;
 
-/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
+/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_... */
 export function getQuality(preset: QualityPreset, into?: Quality): Quality;
 
-/** Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
-export function getSetup(preset: SetupPreset, width: number, height: number, into?: Setup): Setup;
+/** Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of sheet and
+ *  its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy). */
+export function getSetup(preset: SetupPreset, width: number, height: number, into?: SheetDef): SheetDef;
 
 /** Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 export function fillRectangle(width: number, height: number, columns: number, rows: number): { restPositions: Float32Array, indices: Int32Array };
@@ -1373,9 +1353,9 @@ export class World {
      *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     createSheet(def: SheetDefGiven): Sheet;
     /** Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-     *  columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
-     *  kiriCreateSheet. */
-    createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
+     *  columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
+     *  read; null: the defaults. A recording stores it as kiriCreateSheet. */
+    createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
     /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does

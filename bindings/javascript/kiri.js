@@ -8,7 +8,7 @@ import {
 export { KiriError, Rows, View, load, wasm };
 
 /** Of the header that this file is made from. */
-export const VERSION = "0.26.0";
+export const VERSION = "0.27.0";
 
 export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, ErrorDef: -2, ErrorId: -3, ErrorMesh:
     -4, ErrorState: -5, ErrorMemory: -6, Diverged: -7, ErrorLimit: -8, ErrorBuild: -9, ErrorData: -10, ErrorReplay:
@@ -55,8 +55,6 @@ export const layouts = {
     kiriMaterial: { size: 40, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
         flexDamping: 20, yieldStress: 24, hardening: 28, slack: 32, detail: 36 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
-    kiriSetup: { size: 72, fields: { material: 0, model: 40, skinning: 44, gridResolution: 48, frameCount: 52,
-        iterations: 56, columns: 60, rows: 64, substeps: 68 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
     kiriSheetDef: { size: 228, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
@@ -416,31 +414,6 @@ function readQuality(o, at, world) {
     o.gridResolution = I32[(at + 4) >> 2];
     o.iterations = I32[(at + 8) >> 2];
     o.substeps = I32[(at + 12) >> 2];
-    return o;
-}
-
-export class Setup {
-    material = new Material();
-    model = 0;
-    skinning = 0;
-    gridResolution = 0;
-    frameCount = 0;
-    iterations = 0;
-    columns = 0;
-    rows = 0;
-    substeps = 0;
-}
-
-function readSetup(o, at, world) {
-    readMaterial(o.material, at, world);
-    o.model = I32[(at + 40) >> 2];
-    o.skinning = I32[(at + 44) >> 2];
-    o.gridResolution = I32[(at + 48) >> 2];
-    o.frameCount = I32[(at + 52) >> 2];
-    o.iterations = I32[(at + 56) >> 2];
-    o.columns = I32[(at + 60) >> 2];
-    o.rows = I32[(at + 64) >> 2];
-    o.substeps = I32[(at + 68) >> 2];
     return o;
 }
 
@@ -1596,12 +1569,12 @@ export function getQuality(preset, into = new Quality()) {
     return readQuality(into, scratch, null);
 }
 
-export function getSetup(preset, width, height, into = new Setup()) {
+export function getSetup(preset, width, height, into = new SheetDef()) {
     const $result = wasm.kiriGetSetup(preset, width, height, scratch);
     if ($result < 0) {
         fail(null, $result, "getSetup");
     }
-    return readSetup(into, scratch, null);
+    return readSheetDef(into, scratch, null);
 }
 
 export function fillRectangle(width, height, columns, rows) {
@@ -1857,7 +1830,7 @@ export class World extends WorldBase {
         }
     }
 
-    createRectangle(width, height, columns, rows, def = null) {
+    createRectangle(width, height, columns = 0, rows = 0, def = null) {
         const $world = pointer(this);
         try {
             if (def) {

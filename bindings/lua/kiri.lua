@@ -1,4 +1,4 @@
---- Kiri 0.26.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
+--- Kiri 0.27.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
 ---
 ---     local kiri = require "kiri"
 ---     local world = kiri.World()
@@ -40,7 +40,6 @@ typedef struct kiriEvent kiriEvent;
 typedef struct kiriProfile kiriProfile;
 typedef struct kiriMaterial kiriMaterial;
 typedef struct kiriQuality kiriQuality;
-typedef struct kiriSetup kiriSetup;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
@@ -85,7 +84,6 @@ struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; 
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
-struct kiriSetup { kiriMaterial material; int32_t model; int32_t skinning; int32_t gridResolution; int32_t frameCount; int32_t iterations; int32_t columns; int32_t rows; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
@@ -140,10 +138,10 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 const char* kiriGetStageName(int32_t stage);
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
-kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 void kiriDefaultSheetDef(kiriSheetDef* def);
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
+kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
 kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
@@ -242,7 +240,7 @@ void kiriDefaultDebugDraw(kiriDebugDraw* draw);
 kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
 ]]
 
-local kiri = {VERSION = "0.26.0"}
+local kiri = {VERSION = "0.27.0"}
 
 kiri.OK = 0
 kiri.PENDING = 1
@@ -666,7 +664,6 @@ structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame 
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number", yieldStress = "number", hardening = "number", slack = "number", detail = "number"}}
 structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
-structs.kiriSetup = {fields = {material = "kiriMaterial", model = "number", skinning = "number", gridResolution = "number", frameCount = "number", iterations = "number", columns = "number", rows = "number", substeps = "number"}}
 structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
 structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", weldDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
 structs.kiriSheetSettings = {fields = {cookie = "number", material = "kiriMaterial", maxFrames = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", iterations = "number", sleepSpeed = "number", skinning = "number", timeStepping = "number", fadeTime = "number", normals = "number"}}
@@ -928,7 +925,7 @@ function kiri.getStageName(stage)
     return ffi.string(C.kiriGetStageName(stage))
 end
 
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 function kiri.getMaterial(preset, material)
     material = material or new.kiriMaterial()
     local result = C.kiriGetMaterial(preset, material)
@@ -936,20 +933,12 @@ function kiri.getMaterial(preset, material)
     return material
 end
 
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 function kiri.getQuality(preset, quality)
     quality = quality or new.kiriQuality()
     local result = C.kiriGetQuality(preset, quality)
     if result < 0 then fail(nil, "getQuality", result, false) end
     return quality
-end
-
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
-function kiri.getSetup(preset, width, height, setup)
-    setup = setup or new.kiriSetup()
-    local result = C.kiriGetSetup(preset, width, height, setup)
-    if result < 0 then fail(nil, "getSetup", result, false) end
-    return setup
 end
 
 --- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
@@ -978,9 +967,18 @@ function Sheet:destroy()
     return result == 1
 end
 
+--- Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of sheet and
+--- its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy).
+function kiri.getSetup(preset, width, height, def)
+    def = def or new.kiriSheetDef()
+    local result = C.kiriGetSetup(preset, width, height, def)
+    if result < 0 then fail(nil, "getSetup", result, false) end
+    return def
+end
+
 --- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
---- kiriCreateSheet.
+--- columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read;
+--- null: the defaults. A recording stores it as kiriCreateSheet.
 function World:createRectangle(width, height, columns, rows, def)
     local world = self
     local result = C.kiriCreateRectangle(world.c, width, height, columns, rows, struct_of(world, def, "kiriSheetDef"), out.Sheet)

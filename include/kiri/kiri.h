@@ -18,7 +18,7 @@
 
 /* Version of this header. kiriGetVersion() returns the version of the linked library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 26
+#define KIRI_VERSION_MINOR 27
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
@@ -298,21 +298,13 @@ typedef struct kiriQuality {
 } kiriQuality;
 enum kiriQualityPreset { KIRI_QUALITY_FAST, KIRI_QUALITY_BALANCED, KIRI_QUALITY_ACCURATE, KIRI_QUALITY_COUNT };
 
-/* Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth. */
-typedef struct kiriSetup {
-    kiriMaterial material;
-    int32_t model;    /* KIRI_MODEL_... */
-    int32_t skinning; /* KIRI_SKINNING_... */
-    int32_t gridResolution, frameCount, iterations; /* for the sheet def, as the three above */
-    int32_t columns, rows, substeps; /* for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s */
-} kiriSetup;
+/* Kinds of sheets to begin with. They want a tick of 1/60 s with 4 substeps; curtain and card do with 2. */
 enum kiriSetupPreset { KIRI_SETUP_CURTAIN, KIRI_SETUP_PAPER, KIRI_SETUP_FLAG, KIRI_SETUP_RIBBON, KIRI_SETUP_RUBBER,
                        KIRI_SETUP_CARD, KIRI_SETUP_FOIL, KIRI_SETUP_COUNT };
 
-/* Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most). */
+/* Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_... */
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
-KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 
 /* How a sheet deforms (manual, sheets). Rigid frames have 6 unknowns, affine ones 12. */
 enum kiriModel {
@@ -394,8 +386,13 @@ KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
+/* Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of sheet and its
+   sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy). */
+KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
+
 /* Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-   and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as kiriCreateSheet. */
+   and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read; null: the
+   defaults. A recording stores it as kiriCreateSheet. */
 KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                         const kiriSheetDef* def, kiriSheet* sheet);
 

@@ -42,11 +42,11 @@ class Curtain:
         self.world = kiri.World(budget=BUDGET)
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_PLANE, friction=0.8)
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.22, position=(0.15, 0.24, 0.45))
-        setup = vars(kiri.setup(kiri.SetupPreset.CURTAIN, 1.5, 1.0))
-        self.substeps = setup.pop("substeps")
-        setup["material"].thickness, setup["material"].density = 0.002, 150.0  # felt: what falls lies flat, and is no heap
-        self.sheet = self.world.create_rectangle(1.5, 1.0, position=(-0.75, 0.0, 0.18), axisU=(1, 0, 0), axisV=(0, 0, 1),
-                                                 collisionPoints=400, touchesSheets=1, **setup)
+        setup = kiri.setup(kiri.SetupPreset.CURTAIN, 1.5, 1.0)
+        setup.material.thickness, setup.material.density = 0.002, 150.0  # felt: what falls lies flat, and is no heap
+        setup.position, setup.axisV = (-0.75, 0.0, 0.18), (0, 0, 1)
+        setup.collisionPoints, setup.touchesSheets = 400, 1
+        self.sheet = self.world.create_rectangle(1.5, 1.0, **vars(setup))
         for i in range(7):
             u = 0.01 + 1.48 * i / 6
             self.sheet.create_pin((u, 0.99), (0.94 * (u - 0.75), 0.04 * (-1) ** i, 1.17))
@@ -64,7 +64,7 @@ class Curtain:
                 self.blade.end()
                 self.blade = None
         self.way.clear()
-        self.world.tick(TICK, self.substeps)
+        self.world.tick(TICK, 2)
 
 
 # ---- Drawing ---------------------------------------------------------------------------------------------------------

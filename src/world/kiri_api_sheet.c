@@ -94,12 +94,17 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
     KIRI_PREPARES(world);
     KIRI_CHECK_OUT(sheet);
     *sheet = 0;
-    KIRI_CHECK(IsRectangle(width, height, columns, rows), "width or height is not above 0, or columns or rows not within 1 and 4096");
     kiriSheetDef filled;
     kiriDefaultSheetDef(&filled);
     if (def != NULL) {
         filled = *def;
     }
+    KIRI_CHECK(IsRectangle(width, height, columns == 0 ? 1 : columns, rows == 0 ? 1 : rows),
+               "width or height is not above 0, or columns or rows not within 0 and 4096");
+    bool isGrid = filled.gridResolution >= 1 && filled.gridResolution <= 4096;
+    double squares = isGrid ? 1.5 * filled.gridResolution / kiriMax(width, height) : 0.0; /* a metre */
+    columns = columns != 0 ? columns : kiriMax(1, kiriMin(4096, (int32_t)(squares * width + 0.5)));
+    rows = rows != 0 ? rows : kiriMax(1, kiriMin(4096, (int32_t)(squares * height + 0.5)));
     filled.vertexCount = (columns + 1) * (rows + 1);
     filled.triangleCount = 2 * columns * rows;
     float* positions = kiriMemory_Alloc(&world->memory, (int64_t)sizeof(float) * 2 * filled.vertexCount);

@@ -72,41 +72,35 @@ kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality)
 /* Measured, cut in the middle of the run: the manual (accuracy) has the table. */
 static const struct {
     int32_t material;
-    float thickness; /* m; 0: of the material */
-    int32_t model, frames, iterations, squares, substeps;
+    float thickness; /* of the material's */
+    int32_t model, frames, iterations;
 } setups[KIRI_SETUP_COUNT] = {
-    { KIRI_MATERIAL_COTTON, 0.0f, KIRI_MODEL_LINKS, 24, 1, 48, 2 },
-    { KIRI_MATERIAL_PAPER, 0.0f, KIRI_MODEL_LINKS, 25, 1, 64, 4 },
-    { KIRI_MATERIAL_COTTON, 2.5e-4f, KIRI_MODEL_LINKS, 40, 1, 45, 4 },
-    { KIRI_MATERIAL_COTTON, 2e-4f, KIRI_MODEL_LINKS, 17, 1, 48, 4 },
-    { KIRI_MATERIAL_RUBBER, 0.0f, KIRI_MODEL_AFFINE, 25, 4, 48, 4 },
-    { KIRI_MATERIAL_CARD, 0.0f, KIRI_MODEL_LINKS, 12, 1, 48, 2 },
-    { KIRI_MATERIAL_FOIL, 0.0f, KIRI_MODEL_LINKS, 25, 1, 64, 4 },
+    { KIRI_MATERIAL_COTTON, 1.0f, KIRI_MODEL_LINKS, 24, 1 },
+    { KIRI_MATERIAL_PAPER, 1.0f, KIRI_MODEL_LINKS, 25, 1 },
+    { KIRI_MATERIAL_COTTON, 0.5f, KIRI_MODEL_LINKS, 40, 1 },
+    { KIRI_MATERIAL_COTTON, 0.4f, KIRI_MODEL_LINKS, 17, 1 },
+    { KIRI_MATERIAL_RUBBER, 1.0f, KIRI_MODEL_AFFINE, 25, 4 },
+    { KIRI_MATERIAL_CARD, 1.0f, KIRI_MODEL_LINKS, 12, 1 },
+    { KIRI_MATERIAL_FOIL, 1.0f, KIRI_MODEL_LINKS, 25, 1 },
 };
 
-/* The longer side has enough for four squares, of the mesh and of the grid, and most of a frame across the shorter one. */
-kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup)
+/* The shorter side has four squares of the grid or more, and most of a frame. */
+kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def)
 {
     float longer = width > height ? width : height, shorter = width > height ? height : width;
-    if (preset < 0 || preset >= KIRI_SETUP_COUNT || setup == NULL || !(shorter > 0.0f) ||
+    if (preset < 0 || preset >= KIRI_SETUP_COUNT || def == NULL || !(shorter > 0.0f) ||
         !(longer <= 256.0f * shorter) || longer > 4e37f) {
         return KIRI_ERROR_ARGUMENT;
     }
-    int32_t across = (int32_t)(4.0f * (longer / shorter)),
-            along = across > setups[preset].squares ? across : setups[preset].squares;
-    int32_t less = (int32_t)((float)along * (shorter / longer) + 0.5f), frames = across / 5;
-    *setup = (kiriSetup){ .material = materials[setups[preset].material],
-                          .model = setups[preset].model,
-                          .skinning = KIRI_SKINNING_SMOOTH,
-                          .gridResolution = across > 40 ? across : 40,
-                          .frameCount = frames > setups[preset].frames ? frames : setups[preset].frames,
-                          .iterations = setups[preset].iterations,
-                          .columns = width > height ? along : less,
-                          .rows = width > height ? less : along,
-                          .substeps = setups[preset].substeps };
-    if (setups[preset].thickness > 0.0f) {
-        setup->material.thickness = setups[preset].thickness;
-    }
+    int32_t squares = (int32_t)(4.0f * (longer / shorter)), frames = squares / 5;
+    kiriDefaultSheetDef(def);
+    def->material = materials[setups[preset].material];
+    def->material.thickness *= setups[preset].thickness;
+    def->model = setups[preset].model;
+    def->skinning = KIRI_SKINNING_SMOOTH;
+    def->gridResolution = squares > 40 ? squares : 40;
+    def->frameCount = frames > setups[preset].frames ? frames : setups[preset].frames;
+    def->iterations = setups[preset].iterations;
     return KIRI_OK;
 }
 

@@ -663,8 +663,8 @@ namespace Kiri
         }
 
         /// <summary>Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        /// columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
-        /// kiriCreateSheet.</summary>
+        /// columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
+        /// read; null: the defaults. A recording stores it as kiriCreateSheet.</summary>
         public Sheet CreateRectangle(float width, float height, int columns, int rows, SheetDef? @def = null)
         {
             SheetDef defValue = @def.GetValueOrDefault();
@@ -834,8 +834,7 @@ namespace Kiri
             return World.Text(Native.kiriGetStageName((int)stage));
         }
 
-        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-        /// most).</summary>
+        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...</summary>
         public static Material GetMaterial(MaterialPreset preset)
         {
             var materialValue = new Material();
@@ -843,8 +842,7 @@ namespace Kiri
             return materialValue;
         }
 
-        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-        /// most).</summary>
+        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...</summary>
         public static Quality GetQuality(QualityPreset preset)
         {
             var qualityValue = new Quality();
@@ -852,13 +850,14 @@ namespace Kiri
             return qualityValue;
         }
 
-        /// <summary>Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-        /// most).</summary>
-        public static Setup GetSetup(SetupPreset preset, float width, float height)
+        /// <summary>Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of
+        /// sheet and its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual,
+        /// accuracy).</summary>
+        public static SheetDef GetSetup(SetupPreset preset, float width, float height)
         {
-            var setupValue = new Setup();
-            World.CheckStatic(Native.kiriGetSetup((int)preset, width, height, &setupValue), "Library.GetSetup");
-            return setupValue;
+            var defValue = new SheetDef();
+            World.CheckStatic(Native.kiriGetSetup((int)preset, width, height, &defValue), "Library.GetSetup");
+            return defValue;
         }
 
         /// <summary>Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices.</summary>

@@ -448,7 +448,7 @@ namespace Kiri
         Count = 3,
     }
 
-    /// <summary>Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.</summary>
+    /// <summary>Kinds of sheets to begin with. They want a tick of 1/60 s with 4 substeps; curtain and card do with 2.</summary>
     public enum SetupPreset
     {
         Curtain = 0,
@@ -728,29 +728,6 @@ namespace Kiri
         /// <summary>for the sheet def</summary>
         public int Iterations;
         /// <summary>for kiriWorld_Tick</summary>
-        public int Substeps;
-    }
-
-    /// <summary>Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Setup
-    {
-        public Material Material;
-        /// <summary>KIRI_MODEL_...</summary>
-        public Model Model;
-        /// <summary>KIRI_SKINNING_...</summary>
-        public Skinning Skinning;
-        /// <summary>for the sheet def, as the three above</summary>
-        public int GridResolution;
-        /// <summary>for the sheet def, as the three above</summary>
-        public int FrameCount;
-        /// <summary>for the sheet def, as the three above</summary>
-        public int Iterations;
-        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
-        public int Columns;
-        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
-        public int Rows;
-        /// <summary>for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s</summary>
         public int Substeps;
     }
 
@@ -1441,7 +1418,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 2600;
+        public const int Version = 2700;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
@@ -1524,9 +1501,6 @@ namespace Kiri
         public static extern int kiriGetQuality(int preset, Quality* quality);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriGetSetup(int preset, float width, float height, Setup* setup);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern void kiriDefaultSheetDef(SheetDef* @def);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1534,6 +1508,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriDestroySheet(IntPtr world, SheetId sheet);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriGetSetup(int preset, float width, float height, SheetDef* @def);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriCreateRectangle(IntPtr world, float width, float height, int columns, int rows, SheetDef* @def, SheetId* sheet);

@@ -24,7 +24,6 @@ namespace Kiri.Tests
             Profile();
             Material();
             Quality();
-            Setup();
             PaperOptions();
             SheetDef();
             SheetSettings();
@@ -166,22 +165,6 @@ namespace Kiri.Tests
             Is("Quality.GridResolution", (byte*)&s.GridResolution - at, 4);
             Is("Quality.Iterations", (byte*)&s.Iterations - at, 8);
             Is("Quality.Substeps", (byte*)&s.Substeps - at, 12);
-        }
-
-        static void Setup()
-        {
-            Setup s;
-            byte* at = (byte*)&s;
-            Is("Setup", sizeof(Setup), 72);
-            Is("Setup.Material", (byte*)&s.Material - at, 0);
-            Is("Setup.Model", (byte*)&s.Model - at, 40);
-            Is("Setup.Skinning", (byte*)&s.Skinning - at, 44);
-            Is("Setup.GridResolution", (byte*)&s.GridResolution - at, 48);
-            Is("Setup.FrameCount", (byte*)&s.FrameCount - at, 52);
-            Is("Setup.Iterations", (byte*)&s.Iterations - at, 56);
-            Is("Setup.Columns", (byte*)&s.Columns - at, 60);
-            Is("Setup.Rows", (byte*)&s.Rows - at, 64);
-            Is("Setup.Substeps", (byte*)&s.Substeps - at, 68);
         }
 
         static void PaperOptions()

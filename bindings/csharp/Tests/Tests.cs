@@ -85,6 +85,17 @@ namespace Kiri.Tests
             }
         }
 
+        public static void ASetupIsADef()
+        {
+            using (var world = new World())
+            {
+                SheetDef def = Library.GetSetup(SetupPreset.Paper, 0.3f, 0.3f);
+                Counts counts = world.CreateRectangle(0.3f, 0.3f, 0, 0, def).GetCounts();
+                Equal(counts.Frames, 25);
+                Equal(counts.Triangles, 7200);
+            }
+        }
+
         public static void ViewsEndWithTheTickAndWithTheWorld()
         {
             var world = new World();

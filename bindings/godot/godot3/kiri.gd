@@ -120,11 +120,11 @@ static func get_material(preset):
 static func get_quality(preset):
 	return Native.new().get_quality(preset)
 
-static func get_setup(preset, width, height):
-	return Native.new().get_setup(preset, width, height)
-
 static func default_sheet_def():
 	return Native.new().default_sheet_def()
+
+static func get_setup(preset, width, height):
+	return Native.new().get_setup(preset, width, height)
 
 static func fill_rectangle(width, height, columns, rows):
 	return Native.new().fill_rectangle(width, height, columns, rows)

@@ -180,18 +180,6 @@ kiri.DRAW_ALL = 2047
 ---@field iterations? integer # for the sheet def
 ---@field substeps? integer # for kiriWorld_Tick
 
---- Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few frames for cloth.
----@class kiri.Setup
----@field material? kiri.Material
----@field model? integer # KIRI_MODEL_...
----@field skinning? integer # KIRI_SKINNING_...
----@field gridResolution? integer # for the sheet def, as the three above
----@field frameCount? integer # for the sheet def, as the three above
----@field iterations? integer # for the sheet def, as the three above
----@field columns? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
----@field rows? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
----@field substeps? integer # for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
-
 --- Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder.
 ---@class kiri.PaperOptions
 ---@field fromScratch? boolean|integer # 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
@@ -731,25 +719,17 @@ function kiri.fitBudget(profile, microseconds, budget) end
 ---@return string
 function kiri.getStageName(stage) end
 
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 ---@param preset integer
 ---@param material? kiri.Material
 ---@return kiri.Material
 function kiri.getMaterial(preset, material) end
 
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
+--- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 ---@param preset integer
 ---@param quality? kiri.Quality
 ---@return kiri.Quality
 function kiri.getQuality(preset, quality) end
-
---- Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at most).
----@param preset integer
----@param width number
----@param height number
----@param setup? kiri.Setup
----@return kiri.Setup
-function kiri.getSetup(preset, width, height, setup) end
 
 --- Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
 --- failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def.
@@ -768,9 +748,18 @@ function World:createSheet(def) end
 ---@return boolean # work is left for later ticks
 function Sheet:destroy() end
 
+--- Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of sheet and
+--- its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy).
+---@param preset integer
+---@param width number
+---@param height number
+---@param def? kiri.SheetDef
+---@return kiri.SheetDef
+function kiri.getSetup(preset, width, height, def) end
+
 --- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
---- kiriCreateSheet.
+--- columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read;
+--- null: the defaults. A recording stores it as kiriCreateSheet.
 ---@param width number
 ---@param height number
 ---@param columns integer

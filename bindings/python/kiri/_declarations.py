@@ -1,6 +1,6 @@
 """Made from kiri.h by `make bindings`."""
 
-VERSION = "0.26.0"
+VERSION = "0.27.0"
 
 ARRAYS = {'kiriReplay': {'note': ('noteCount', 1)},
  'kiriSheetDef': {'restPositions': ('vertexCount', 2),
@@ -33,7 +33,6 @@ IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'P
  'kiriDebugDraw': {'sheet': 'Sheet'}}
 
 ENUMS = {'kiriEvent': {'type': 'EventType', 'stage': 'Stage'},
- 'kiriSetup': {'model': 'Model', 'skinning': 'Skinning'},
  'kiriSheetDef': {'model': 'Model', 'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
  'kiriSheetSettings': {'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
  'kiriPinState': {'type': 'PinType'},
@@ -175,10 +174,10 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriGetStageName': (None, 'stage_name'),
  'kiriGetMaterial': (None, 'material'),
  'kiriGetQuality': (None, 'quality'),
- 'kiriGetSetup': (None, 'setup'),
  'kiriDefaultSheetDef': (None, 'default_sheet_def'),
  'kiriCreateSheet': ('World', 'create_sheet'),
  'kiriDestroySheet': ('Sheet', 'destroy'),
+ 'kiriGetSetup': (None, 'setup'),
  'kiriCreateRectangle': ('World', 'create_rectangle'),
  'kiriSheet_GetSettings': ('Sheet', 'settings'),
  'kiriSheet_SetSettings': ('Sheet', 'set_settings'),
@@ -395,7 +394,6 @@ typedef struct kiriEvent kiriEvent;
 typedef struct kiriProfile kiriProfile;
 typedef struct kiriMaterial kiriMaterial;
 typedef struct kiriQuality kiriQuality;
-typedef struct kiriSetup kiriSetup;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
@@ -440,7 +438,6 @@ struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; 
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; float slack; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
-struct kiriSetup { kiriMaterial material; int32_t model; int32_t skinning; int32_t gridResolution; int32_t frameCount; int32_t iterations; int32_t columns; int32_t rows; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
@@ -495,10 +492,10 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 const char* kiriGetStageName(int32_t stage);
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
-kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSetup* setup);
 void kiriDefaultSheetDef(kiriSheetDef* def);
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
+kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
 kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);

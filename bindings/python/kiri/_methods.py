@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
     from ._fields import *
 
-__all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality', 'setup',
- 'default_sheet_def', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
+__all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality',
+ 'default_sheet_def', 'setup', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
 
 
 def version() -> int:
@@ -45,29 +45,16 @@ def stage_name(stage: int) -> str:
 
 
 def material(preset: int) -> Record:
-    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-    most).
-    """
+    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..."""
     structure = core.ffi.new('kiriMaterial*')
     core.check('kiriGetMaterial', preset, structure)
     return core.record(structure[0])
 
 
 def quality(preset: int) -> Record:
-    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-    most).
-    """
+    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..."""
     structure = core.ffi.new('kiriQuality*')
     core.check('kiriGetQuality', preset, structure)
-    return core.record(structure[0])
-
-
-def setup(preset: int, width: float, height: float) -> Record:
-    """Returns the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1 : 256 at
-    most).
-    """
-    structure = core.ffi.new('kiriSetup*')
-    core.check('kiriGetSetup', preset, width, height, structure)
     return core.record(structure[0])
 
 
@@ -75,6 +62,16 @@ def default_sheet_def() -> Record:
     """Returns the defaults of kiriSheetDef."""
     structure = core.ffi.new('kiriSheetDef*')
     core.load().kiriDefaultSheetDef(structure)
+    return core.record(structure[0])
+
+
+def setup(preset: int, width: float, height: float) -> Record:
+    """Returns a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations for a kind of
+    sheet and its sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual,
+    accuracy).
+    """
+    structure = core.ffi.new('kiriSheetDef*')
+    core.check('kiriGetSetup', preset, width, height, structure)
     return core.record(structure[0])
 
 
@@ -161,10 +158,10 @@ class World:
         """Returns the profile of the last tick that was not refused."""
         return core.record(self.get('kiriWorld_GetProfile', 'kiriProfile'), self)
 
-    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Unpack[SheetDef]) -> kiri.Sheet:
+    def create_rectangle(self, width: float, height: float, columns: int = 0, rows: int = 0, **fields: Unpack[SheetDef]) -> kiri.Sheet:
         """Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        columns and rows are 1 to 4096. def: its mesh is not read; None: the defaults. A recording stores it as
-        kiriCreateSheet.
+        columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
+        read; None: the defaults. A recording stores it as kiriCreateSheet.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)

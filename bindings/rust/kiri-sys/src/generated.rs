@@ -18,7 +18,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 2600;
+pub const KIRI_VERSION: i32 = 2700;
 
 pub const KIRI_OK: i32 = 0;
 /// success; work is left for later ticks
@@ -401,30 +401,6 @@ pub struct kiriQuality {
     /// for the sheet def
     pub iterations: i32,
     /// for kiriWorld_Tick
-    pub substeps: i32,
-}
-
-/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
-/// frames for cloth.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct kiriSetup {
-    pub material: kiriMaterial,
-    /// KIRI_MODEL_...
-    pub model: i32,
-    /// KIRI_SKINNING_...
-    pub skinning: i32,
-    /// for the sheet def, as the three above
-    pub gridResolution: i32,
-    /// for the sheet def, as the three above
-    pub frameCount: i32,
-    /// for the sheet def, as the three above
-    pub iterations: i32,
-    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
-    pub columns: i32,
-    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
-    pub rows: i32,
-    /// for kiriCreateRectangle; for kiriWorld_Tick with a dt of 1/60 s
     pub substeps: i32,
 }
 
@@ -1153,15 +1129,10 @@ unsafe extern "C" {
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
     /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;
-    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
-    /// m, 1 : 256 at most).
+    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
     pub fn kiriGetMaterial(preset: i32, material: *mut kiriMaterial) -> kiriResult;
-    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
-    /// m, 1 : 256 at most).
+    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
-    /// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in
-    /// m, 1 : 256 at most).
-    pub fn kiriGetSetup(preset: i32, width: f32, height: f32, setup: *mut kiriSetup) -> kiriResult;
     /// Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts,
     /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
     /// line names them by index in the def.
@@ -1174,9 +1145,14 @@ unsafe extern "C" {
     /// frames and pins. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the
     /// line names them by index in the def.
     pub fn kiriDestroySheet(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
+    /// Gets a def for kiriCreateRectangle: material, model, skinning, grid, frames and iterations
+    /// for a kind of sheet and its sides (m, 1 : 256 at most). Other fields are as
+    /// kiriDefaultSheetDef has them (manual, accuracy).
+    pub fn kiriGetSetup(preset: i32, width: f32, height: f32, def: *mut kiriSheetDef) -> kiriResult;
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
-    /// defaults. A recording stores it as kiriCreateSheet.
+    /// \* rows triangles; columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of
+    /// its squares. def: its mesh is not read; null: the defaults. A recording stores it as
+    /// kiriCreateSheet.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
     /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
     /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
@@ -1585,17 +1561,6 @@ const _: () = {
     assert!(offset_of!(kiriQuality, gridResolution) == 4);
     assert!(offset_of!(kiriQuality, iterations) == 8);
     assert!(offset_of!(kiriQuality, substeps) == 12);
-    assert!(size_of::<kiriSetup>() == 72);
-    assert!(align_of::<kiriSetup>() == 4);
-    assert!(offset_of!(kiriSetup, material) == 0);
-    assert!(offset_of!(kiriSetup, model) == 40);
-    assert!(offset_of!(kiriSetup, skinning) == 44);
-    assert!(offset_of!(kiriSetup, gridResolution) == 48);
-    assert!(offset_of!(kiriSetup, frameCount) == 52);
-    assert!(offset_of!(kiriSetup, iterations) == 56);
-    assert!(offset_of!(kiriSetup, columns) == 60);
-    assert!(offset_of!(kiriSetup, rows) == 64);
-    assert!(offset_of!(kiriSetup, substeps) == 68);
     assert!(size_of::<kiriPaperOptions>() == 20);
     assert!(align_of::<kiriPaperOptions>() == 4);
     assert!(offset_of!(kiriPaperOptions, fromScratch) == 0);
@@ -1966,17 +1931,6 @@ const _: () = {
     assert!(offset_of!(kiriQuality, gridResolution) == 4);
     assert!(offset_of!(kiriQuality, iterations) == 8);
     assert!(offset_of!(kiriQuality, substeps) == 12);
-    assert!(size_of::<kiriSetup>() == 72);
-    assert!(align_of::<kiriSetup>() == 4);
-    assert!(offset_of!(kiriSetup, material) == 0);
-    assert!(offset_of!(kiriSetup, model) == 40);
-    assert!(offset_of!(kiriSetup, skinning) == 44);
-    assert!(offset_of!(kiriSetup, gridResolution) == 48);
-    assert!(offset_of!(kiriSetup, frameCount) == 52);
-    assert!(offset_of!(kiriSetup, iterations) == 56);
-    assert!(offset_of!(kiriSetup, columns) == 60);
-    assert!(offset_of!(kiriSetup, rows) == 64);
-    assert!(offset_of!(kiriSetup, substeps) == 68);
     assert!(size_of::<kiriPaperOptions>() == 20);
     assert!(align_of::<kiriPaperOptions>() == 4);
     assert!(offset_of!(kiriPaperOptions, fromScratch) == 0);

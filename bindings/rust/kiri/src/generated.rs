@@ -420,8 +420,8 @@ impl QualityPreset {
     }
 }
 
-/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
-/// frames for cloth.
+/// Kinds of sheets to begin with. They want a tick of 1/60 s with 4 substeps; curtain and card do
+/// with 2.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -871,47 +871,6 @@ impl Quality {
     pub(crate) fn raw(&self) -> sys::kiriQuality {
         // SAFETY: as above.
         unsafe { *std::ptr::from_ref(self).cast() }
-    }
-}
-
-/// Settings to begin with, for a rectangle (manual, accuracy). Defaults of the def have too few
-/// frames for cloth.
-#[derive(Clone, Copy, Debug)]
-pub struct Setup {
-    /// Material.
-    pub material: Material,
-    /// KIRI_MODEL_...
-    pub model: Model,
-    /// KIRI_SKINNING_...
-    pub skinning: Skinning,
-    /// for the sheet def, as the three above
-    pub grid_resolution: i32,
-    /// for the sheet def, as the three above
-    pub frame_count: i32,
-    /// for the sheet def, as the three above
-    pub iterations: i32,
-    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
-    pub columns: i32,
-    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
-    pub rows: i32,
-    /// for [`World::create_rectangle`]; for [`World::tick`] with a dt of 1/60 s
-    pub substeps: i32,
-}
-
-impl Setup {
-    #[allow(dead_code)]
-    pub(crate) fn from_raw(raw: &sys::kiriSetup) -> Self {
-        Self {
-            material: Material::from_raw(&raw.material),
-            model: Model::known(raw.model),
-            skinning: Skinning::known(raw.skinning),
-            grid_resolution: raw.gridResolution,
-            frame_count: raw.frameCount,
-            iterations: raw.iterations,
-            columns: raw.columns,
-            rows: raw.rows,
-            substeps: raw.substeps,
-        }
     }
 }
 
@@ -2440,8 +2399,7 @@ pub fn stage_name(stage: Stage) -> &'static str {
     unsafe { text(sys::kiriGetStageName(stage as i32)) }
 }
 
-/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
-/// : 256 at most).
+/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 pub fn material(preset: MaterialPreset) -> Result<Material> {
     let mut material = MaybeUninit::<sys::kiriMaterial>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2451,8 +2409,7 @@ pub fn material(preset: MaterialPreset) -> Result<Material> {
     Ok(Material::from_raw(&material))
 }
 
-/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
-/// : 256 at most).
+/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_...
 pub fn quality(preset: QualityPreset) -> Result<Quality> {
     let mut quality = MaybeUninit::<sys::kiriQuality>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2462,15 +2419,16 @@ pub fn quality(preset: QualityPreset) -> Result<Quality> {
     Ok(Quality::from_raw(&quality))
 }
 
-/// Get the numbers of a preset: KIRI_MATERIAL_..., KIRI_QUALITY_..., KIRI_SETUP_... (sides in m, 1
-/// : 256 at most).
-pub fn setup(preset: SetupPreset, width: f32, height: f32) -> Result<Setup> {
-    let mut setup = MaybeUninit::<sys::kiriSetup>::uninit();
+/// Gets a def for [`World::create_rectangle`]: material, model, skinning, grid, frames and
+/// iterations for a kind of sheet and its sides (m, 1 : 256 at most). Other fields are as
+/// kiriDefaultSheetDef has them (manual, accuracy).
+pub fn setup(preset: SetupPreset, width: f32, height: f32) -> Result<SheetDef<'static>> {
+    let mut def = MaybeUninit::<sys::kiriSheetDef>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
-    fail(unsafe { sys::kiriGetSetup(preset as i32, width, height, setup.as_mut_ptr()) }, "setup")?;
+    fail(unsafe { sys::kiriGetSetup(preset as i32, width, height, def.as_mut_ptr()) }, "setup")?;
     // SAFETY: it filled the struct.
-    let setup = unsafe { setup.assume_init() };
-    Ok(Setup::from_raw(&setup))
+    let def = unsafe { def.assume_init() };
+    Ok(SheetDef::from_raw(&def))
 }
 
 /// Fills in the mesh of [`World::create_rectangle`]: 2 (columns + 1) (rows + 1) floats and 6
@@ -2650,8 +2608,9 @@ impl World {
     }
 
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
-    /// defaults. A recording stores it as [`World::create_sheet`].
+    /// \* rows triangles; columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of
+    /// its squares. def: its mesh is not read; null: the defaults. A recording stores it as
+    /// [`World::create_sheet`].
     pub fn create_rectangle(&mut self, width: f32, height: f32, columns: i32, rows: i32, def: Option<&SheetDef<'_>>) -> Result<Sheet> {
         let def = def.map(|def| def.raw());
         let mut sheet = 0;

@@ -66,6 +66,15 @@ fn errors_have_a_code_and_a_line() {
 }
 
 #[test]
+fn a_setup_is_a_def() {
+    let mut world = World::new(WorldDef::default()).unwrap();
+    let def = kiri::setup(kiri::SetupPreset::Paper, 0.3, 0.3).unwrap();
+    let sheet = world.create_rectangle(0.3, 0.3, 0, 0, Some(&def)).unwrap();
+    let counts = sheet.counts(&world).unwrap();
+    assert_eq!((counts.frames, counts.triangles), (25, 7200));
+}
+
+#[test]
 fn the_log_gets_the_lines() {
     let lines = Arc::new(Mutex::new(Vec::new()));
     let kept = lines.clone();
