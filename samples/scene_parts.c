@@ -11,6 +11,7 @@ kiriSheetDef Scene_PlaceSheet(const Scene* scene, const float corner[3], const f
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.skinning = KIRI_SKINNING_LINEAR; /* the paper's */
     for (int i = 0; i < 3; i++) {
         def.position[i] = scene->type->size * corner[i];
         def.axisU[i] = i == 0 ? 1.0f : 0.0f;

@@ -74,8 +74,7 @@ static inline bool Bed_AddSheets(Bed* bed)
     const Adversary* a = bed->adversary;
     bool fine = true;
     for (int32_t i = 0; fine && i < bed->count; i++) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.position[1] = 2.0f * (float)i;
         def.gridResolution = a->grid;
         def.frameCount = a->frames;

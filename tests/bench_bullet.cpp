@@ -1,5 +1,6 @@
 /* A cloth of Bullet beside one of Kiri: the same mesh, pinned at the same corners, in turns. Bullet moves each vertex; a cloth of Kiri is
    moved by 25 frames. The times are of the processor, so other programs change them little. */
+#include "defaults.h"
 #include "kiri/kiri.h"
 
 #include <btBulletDynamicsCommon.h>
@@ -83,8 +84,7 @@ static Pair Measure(kiriSheetDef def, int iterations)
 
 int main()
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     def.frameCount = 25;

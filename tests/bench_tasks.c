@@ -35,7 +35,6 @@ static const Row rows[] = {
 
 static bool Build(kiriWorld* world, const Row* row)
 {
-    kiriSheetDef def;
     kiriObstacle obstacle;
     bool fine = true;
     kiriObstacleDef floor = ObstacleOf(KIRI_OBSTACLE_PLANE);
@@ -44,7 +43,7 @@ static bool Build(kiriWorld* world, const Row* row)
     for (int32_t i = 0; fine && i < row->sheets; i++) {
         kiriSheet sheet;
         int32_t spot = row->isHeap ? i / 4 : i, layer = row->isHeap ? i % 4 : 0;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = row->frames;
         def.sleepSpeed = 0.0f;
         def.touchesSheets = row->isHeap;

@@ -4,6 +4,7 @@
 #define BOX2D_RIG_H
 
 #include "../samples/box2d/kiri_box2d.h"
+#include "defaults.h"
 
 #include <cmath>
 #include <cstdio>
@@ -127,8 +128,7 @@ struct Rig {
 /* A sheet that hardly bends. */
 inline kiriSheetDef StiffDef(float kilogramsPerArea)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material.youngsModulus = 1e9f;
     def.material.poissonsRatio = 0.0f;
     def.material.thickness = 0.004f;

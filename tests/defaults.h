@@ -25,10 +25,13 @@ static inline kiriSeamDef DefaultSeam(void)
     return def;
 }
 
+/* Has few frames and the linear skin, so tests are quick. */
 static inline kiriSheetDef DefaultSheet(void)
 {
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
+    def.frameCount = 5;
+    def.skinning = KIRI_SKINNING_LINEAR;
     return def;
 }
 

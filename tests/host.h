@@ -431,8 +431,7 @@ static inline kiriSheet Host_AddRectangle(Host* host, kiriSheetDef* def, float w
 static inline kiriSheetDef Host_SmallDef(void)
 {
     static const float points[8] = { 0.1875f, 0.1875f, 0.8125f, 0.1875f, 0.1875f, 0.8125f, 0.8125f, 0.8125f };
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 8;
     def.frameCount = 4;
     def.framePoints = points;

@@ -3,6 +3,7 @@
 #ifndef KIRI_TOUCHING_H
 #define KIRI_TOUCHING_H
 
+#include "defaults.h"
 #include "kiri/kiri.h"
 #include "scoped.h"
 
@@ -74,8 +75,7 @@ static inline void Touching_AddSheet(Touching* t)
     static float positions[2 * (SIDE + 1) * (SIDE + 1)], frames[2 * 32 * 32];
     static int32_t indices[6 * SIDE * SIDE];
     const TouchingDef* d = &t->def;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle((float)d->size, (float)d->size, SIDE, SIDE, positions, indices);
     for (int k = 0; k < d->frames * d->frames; ++k) {
         frames[2 * k] = (float)(d->size * (k % d->frames + 0.5) / d->frames);

@@ -13,7 +13,8 @@ enum { TICKS = 120 };
 
 static kiriSheet MakeSheet(kiriWorld* world)
 {
-    kiriSheetDef def = DefaultSheet();
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
     def.position[2] = 1.0f;
     def.material.youngsModulus = 1e7f;
     def.frameCount = 6;

@@ -581,9 +581,9 @@ type SheetDef struct {
 	// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
 	WeldDistance float32
 	// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-	// frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
-	// frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
-	// default 5
+	// frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts
+	// too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and
+	// more; default 24
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
@@ -623,7 +623,7 @@ type SheetDef struct {
 	SleepSpeed float32
 	// KIRI_MODEL_..., default KIRI_MODEL_LINKS
 	Model Model
-	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+	// KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
 	Skinning Skinning
 	// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
 	Planar int32
@@ -661,7 +661,7 @@ type SheetSettings struct {
 	Iterations int32
 	// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 	SleepSpeed float32
-	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+	// KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
 	Skinning Skinning
 	// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 	TimeStepping TimeStepping

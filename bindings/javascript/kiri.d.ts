@@ -519,9 +519,9 @@ export class SheetDef {
     /** m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     weldDistance: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
-     *  frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
-     *  default 5 */
+     *  frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts
+     *  too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1
+     *  and more; default 24 */
     frameCount: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength: number;
@@ -561,7 +561,7 @@ export class SheetDef {
     sleepSpeed: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model: Model;
-    /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    /** KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH */
     skinning: Skinning;
     /** 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     planar: boolean;
@@ -599,9 +599,9 @@ export interface SheetDefGiven {
     /** m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     weldDistance?: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
-     *  frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more;
-     *  default 5 */
+     *  frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts
+     *  too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1
+     *  and more; default 24 */
     frameCount?: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength?: number;
@@ -641,7 +641,7 @@ export interface SheetDefGiven {
     sleepSpeed?: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model?: Model;
-    /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    /** KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH */
     skinning?: Skinning;
     /** 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     planar?: boolean | number;
@@ -681,7 +681,7 @@ export class SheetSettings {
     iterations: number;
     /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed: number;
-    /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    /** KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH */
     skinning: Skinning;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping: TimeStepping;
@@ -714,7 +714,7 @@ export interface SheetSettingsGiven {
     iterations?: number;
     /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     sleepSpeed?: number;
-    /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    /** KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH */
     skinning?: Skinning;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping?: TimeStepping;

@@ -351,9 +351,9 @@ typedef struct kiriSheetDef {
     float snapDistance;     /* m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side */
     float weldDistance;     /* m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none */
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-       frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to
+       frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts too, to
        frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). */
-    int32_t frameCount; /* 0, or 1 and more; default 5 */
+    int32_t frameCount; /* 0, or 1 and more; default 24 */
     float frameLength;  /* m; used where frameCount is 0; default 0 */
     float accuracy; /* 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02 */
     const float* framePoints; /* 2 floats a frame, or null */
@@ -372,7 +372,7 @@ typedef struct kiriSheetDef {
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     float sleepSpeed;   /* m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     int32_t model;      /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
-    int32_t skinning;   /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
+    int32_t skinning;   /* KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH */
     int32_t planar;     /* 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0 */
     int32_t timeStepping; /* KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     float fadeTime;  /* s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */

@@ -119,7 +119,6 @@ kiriResult AddStrip(Simulation& simulation)
     def.frameCount = FRAMES;
     def.framePoints = frames.data();
     def.friction = FRICTION;
-    def.skinning = KIRI_SKINNING_SMOOTH;
     return kiriCreateSheet(simulation.world, &def, &simulation.sheet);
 }
 

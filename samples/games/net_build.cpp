@@ -113,6 +113,7 @@ bool AddSheet(NetGame* game, NetKind kind, const Outline& outline, const b2Vec2&
         def->axisV[i] = v[i];
     }
     def->planar = 1;
+    def->skinning = KIRI_SKINNING_LINEAR;
     def->friction = 0.6f;
     def->material.airDamping = 0.3f;
     def->material.flexDamping = 0.02f;

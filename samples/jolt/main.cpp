@@ -27,7 +27,6 @@ static kiriSheet HangCloth(kiriWorld* world)
     def.axisV[1] = 0.0f;
     def.axisV[2] = -1.0f;
     def.frameCount = 25;
-    def.skinning = KIRI_SKINNING_SMOOTH;
     kiriCreateRectangle(world, 1.0f, 1.0f, 40, 40, &def, &cloth);
     pin.target[1] = 1.0f;
     for (int i = 0; i < 4; i++) {

@@ -1,7 +1,7 @@
 -- The level: bodies of love.physics, and sheets that hang on pegs. Lengths in metres, y down.
 local kiri = require "kiri"
 
-local PIXELS = 400 -- in a metre
+local PIXELS, PLAIN = 400, kiri.SKINNING_LINEAR -- pixels in a metre; the skin of sheets that do not bend
 
 local Level = {}
 
@@ -72,7 +72,7 @@ end
 
 local function banner(game, x, y, width, height)
     local sheet = game.world:createRectangle(width, height, math.floor(width / 0.02), math.floor(height / 0.02), {
-        position = {x, y, 0}, planar = true, friction = 0.6, material = cloth_of(1e6), frameCount = 0,
+        position = {x, y, 0}, planar = true, skinning = PLAIN, friction = 0.6, material = cloth_of(1e6), frameCount = 0,
         frameLength = 0.09, maxFrames = 160, gridResolution = math.floor(math.max(width, height) / 0.015)})
     hang(game, sheet, 0.006, 0.006, x + 0.006, y + 0.006)
     hang(game, sheet, width - 0.006, 0.006, x + width - 0.006, y + 0.006)
@@ -82,7 +82,7 @@ end
 local function net(game, x, y, width, height)
     local positions, indices = netting(width, height, 0.0125)
     local sheet = game.world:createSheet {
-        restPositions = positions, indices = indices, position = {x, y, 0}, planar = true, friction = 0.6,
+        restPositions = positions, indices = indices, position = {x, y, 0}, planar = true, skinning = PLAIN, friction = 0.6,
         material = cloth_of(8e6), frameCount = 0, frameLength = 0.05, maxFrames = 160,
         gridResolution = math.floor(math.max(width, height) / 0.00625)}
     hang(game, sheet, 0.006, 0.006, x + 0.006, y + 0.006)
@@ -94,7 +94,7 @@ end
 local function strap(game, x0, x1, y)
     local width, length = 0.03, x1 - x0
     local sheet = game.world:createRectangle(length, width, math.floor(length / 0.012), 3, {
-        position = {x0, y - 0.5 * width, 0}, planar = true, friction = 0.6, gridResolution = math.floor(length / 0.008),
+        position = {x0, y - 0.5 * width, 0}, planar = true, skinning = PLAIN, friction = 0.6, gridResolution = math.floor(length / 0.008),
         material = {youngsModulus = 1e7, poissonsRatio = 0, thickness = 0.003, density = 600, airDamping = 0.3,
                     flexDamping = 0.02},
         frameCount = math.floor(length / 0.05), maxFrames = 2 * math.floor(length / 0.05)})

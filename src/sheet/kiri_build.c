@@ -286,16 +286,13 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, k
     kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK && def->framePoints != NULL) {
         result = TakeFramePoints(sheet, def, fault);
-    } else if (result == KIRI_OK && def->frameCount > kiriSites_MostIn(sheet->grid.cellCount)) {
-        KIRI_SAY(fault, "the grid carries one frame for every two cells at most; a finer one (gridResolution) carries "
-                        "more");
-        result = KIRI_ERROR_ARGUMENT;
     }
     if (result != KIRI_OK) {
         return result;
     }
     sheet->update->placing.whole = kiriMesh_Area(&sheet->mesh);
-    sheet->update->placing.spread = def->framePoints != NULL ? 0 : def->frameCount;
+    sheet->update->placing.spread =
+        def->framePoints != NULL ? 0 : kiriMin(def->frameCount, kiriSites_MostIn(sheet->grid.cellCount));
     sheet->update->cut.settlesSites = def->frameCount == 0;
     if (sheet->update->placing.spread > 0 && !CountPieces(sheet, &sheet->update->placing.pieces)) {
         return KIRI_ERROR_MEMORY;

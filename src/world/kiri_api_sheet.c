@@ -22,7 +22,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->axisV[1] = 1.0f;
     kiriGetMaterial(KIRI_MATERIAL_COTTON, &def->material);
     def->gridResolution = 32;
-    def->frameCount = 5;
+    def->frameCount = 24;
     def->accuracy = 0.02f;
     def->maxFrames = 256;
     def->rigidWeight = 0.95f;
@@ -30,6 +30,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->groups = UINT32_MAX;
     def->iterations = 2;
     def->sleepSpeed = 0.001f;
+    def->skinning = KIRI_SKINNING_SMOOTH;
     def->timeStepping = KIRI_TIME_STEPPING_SECOND_ORDER;
     def->fadeTime = 0.2f;
     def->normals = 1;

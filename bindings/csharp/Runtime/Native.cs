@@ -778,9 +778,9 @@ namespace Kiri
         /// <summary>m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none</summary>
         public float WeldDistance;
         /// <summary>Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null:
-        /// frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after
-        /// cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy).
-        /// 0, or 1 and more; default 5</summary>
+        /// frameCount frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are
+        /// split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error
+        /// (manual, accuracy). 0, or 1 and more; default 24</summary>
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
@@ -822,7 +822,7 @@ namespace Kiri
         public float SleepSpeed;
         /// <summary>KIRI_MODEL_..., default KIRI_MODEL_LINKS</summary>
         public Model Model;
-        /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
+        /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH</summary>
         public Skinning Skinning;
         /// <summary>1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0</summary>
         public Flag Planar;
@@ -875,7 +875,7 @@ namespace Kiri
         public int Iterations;
         /// <summary>m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never</summary>
         public float SleepSpeed;
-        /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
+        /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH</summary>
         public Skinning Skinning;
         /// <summary>KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER</summary>
         public TimeStepping TimeStepping;

@@ -203,7 +203,7 @@ kiri.DRAW_ALL = 2047
 ---@field gridResolution? integer # grid squares along the longer side, 1 to 4096; default 32
 ---@field snapDistance? number # m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
 ---@field weldDistance? number # m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
----@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 5
+---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 24
 ---@field frameLength? number # m; used where frameCount is 0; default 0
 ---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02
 ---@field framePoints? number[]|ffi.cdata* # 2 floats a frame, or null
@@ -220,7 +220,7 @@ kiri.DRAW_ALL = 2047
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field model? integer # KIRI_MODEL_..., default KIRI_MODEL_LINKS
----@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
 ---@field planar? boolean|integer # 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
 ---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 ---@field fadeTime? number # s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
@@ -240,7 +240,7 @@ kiri.DRAW_ALL = 2047
 ---@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
----@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
 ---@field timeStepping? integer # KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 ---@field fadeTime? number # stays 0 with paper.popping
 ---@field normals? boolean|integer # 1: every tick computes normals (default). 0: kiriMesh has none, which saves time

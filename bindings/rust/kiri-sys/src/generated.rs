@@ -458,9 +458,9 @@ pub struct kiriSheetDef {
     /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: frameCount frames are spread evenly, at most one for two squares. frameCount 0:
-    /// regions are split, after cuts too, to frameLength; frameLength 0: it follows from
-    /// \`accuracy\`, the relative error (manual, accuracy). 0, or 1 and more; default 5
+    /// least; null: frameCount frames are spread evenly, or fewer: one for two squares of the grid.
+    /// frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows
+    /// from \`accuracy\`, the relative error (manual, accuracy). 0, or 1 and more; default 24
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,
@@ -503,7 +503,7 @@ pub struct kiriSheetDef {
     pub sleepSpeed: f32,
     /// KIRI_MODEL_..., default KIRI_MODEL_LINKS
     pub model: i32,
-    /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+    /// KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
     pub skinning: i32,
     /// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
     pub planar: i32,
@@ -545,7 +545,7 @@ pub struct kiriSheetSettings {
     pub iterations: i32,
     /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleepSpeed: f32,
-    /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
+    /// KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
     pub skinning: i32,
     /// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
     pub timeStepping: i32,

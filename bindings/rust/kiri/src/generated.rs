@@ -947,9 +947,10 @@ pub struct SheetDef<'a> {
     /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: `frame_count` frames are spread evenly, at most one for two squares.
-    /// `frame_count` 0: regions are split, after cuts too, to `frame_length`; `frame_length` 0: it
-    /// follows from accuracy, the relative error (manual, accuracy). 0, or 1 and more; default 5
+    /// least; null: `frame_count` frames are spread evenly, or fewer: one for two squares of the
+    /// grid. `frame_count` 0: regions are split, after cuts too, to `frame_length`; `frame_length`
+    /// 0: it follows from accuracy, the relative error (manual, accuracy). 0, or 1 and more;
+    /// default 24
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
@@ -992,7 +993,7 @@ pub struct SheetDef<'a> {
     pub sleep_speed: f32,
     /// KIRI_MODEL_..., default [`Model::Links`]
     pub model: Model,
-    /// KIRI_SKINNING_..., default [`Skinning::Linear`]
+    /// KIRI_SKINNING_..., default [`Skinning::Smooth`]
     pub skinning: Skinning,
     /// 1: it stays in the plane where it starts, unbent; forces across are dropped. Default 0
     pub planar: bool,
@@ -1134,7 +1135,7 @@ pub struct SheetSettings {
     pub iterations: i32,
     /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
     pub sleep_speed: f32,
-    /// KIRI_SKINNING_..., default [`Skinning::Linear`]
+    /// KIRI_SKINNING_..., default [`Skinning::Smooth`]
     pub skinning: Skinning,
     /// KIRI_TIME_STEPPING_..., default [`TimeStepping::SecondOrder`]
     pub time_stepping: TimeStepping,
