@@ -9,7 +9,7 @@
 
 #define PI 3.14159265358979323846
 
-static int32_t runCount = 0, firstSeed = 1, heldSeconds = 10;
+static int32_t runCount = 0, firstSeed = 1, heldSeconds = RUNS(10);
 
 /* ---- The curtain ------------------------------------------------------------------------------------------------- */
 
