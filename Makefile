@@ -389,11 +389,11 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-# Of two worlds each 200th save; with sanitizers each 3000th.
+# Of two worlds each 500th save; with sanitizers each 3000th.
 .PHONY: run-sweep_saves
 
 run-sweep_saves: $(BUILD)/tests/sweep_saves
-	@if $< 34 36 1 $(if $(filter sanitize,$(config)),3000,200) > $<.log 2>&1; then $(PASSED); \
+	@if $< 34 36 1 $(if $(filter sanitize,$(config)),3000,500) > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
 all-tests: run-sweep_saves $(LONG_RUNS) $(ONCE) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) \
