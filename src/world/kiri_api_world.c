@@ -72,7 +72,7 @@ kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality)
 /* Measured, cut in the middle of the run: the manual (accuracy) has the table. */
 static const struct {
     int32_t material;
-    float thickness; /* of the material's */
+    float thickness; /* part of the thickness of the material */
     int32_t model, frames, iterations;
 } setups[KIRI_SETUP_COUNT] = {
     { KIRI_MATERIAL_COTTON, 1.0f, KIRI_MODEL_LINKS, 24, 1 },
