@@ -7,7 +7,7 @@ static int32_t CountOf(const kiriStitchRow* row)
 }
 
 /* Returns the force of the stitch on its first point at these poses, N. */
-static kiriVec3 ForceOf(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses)
+static kiriVec3 StitchForce(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses)
 {
     kiriVec3 apart = kiriVec3_Sub(kiriSystem_Blend(system, row->members, CountOf(row), poses), row->off);
     return kiriVec3_Scale(-row->stiffness, apart);
@@ -40,7 +40,7 @@ double kiriStitches_Energy(const kiriSystem* system, const kiriPose* poses)
 {
     double sum = 0.0;
     KIRI_EACH_STITCH(row, system) {
-        kiriVec3 force = ForceOf(system, row, poses);
+        kiriVec3 force = StitchForce(system, row, poses);
         sum += 0.5 * kiriVec3_Dot(force, force) / row->stiffness;
         if (row->bending > 0.0) {
             kiriVec3 pull = PullOf(row, poses);
@@ -73,7 +73,7 @@ void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 ways[KIRI_STITCH_MEMBERS];
-        AddSprings(solver, system, row, NULL, row->stiffness, ForceOf(system, row, solver->poses.data));
+        AddSprings(solver, system, row, NULL, row->stiffness, StitchForce(system, row, solver->poses.data));
         if (row->bending > 0.0) {
             KIRI_TIMES(m, CountOf(row)) {
                 ways[m] = row->ways[m >= row->counts[0]];
@@ -87,7 +87,7 @@ void kiriStitches_Solve(const kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 move = kiriSolver_MoveOf(solver, system, row->members, CountOf(row));
-        row->solved = ForceOf(system, row, solver->poses.data);
+        row->solved = StitchForce(system, row, solver->poses.data);
         row->solved = kiriVec3_AddScaled(row->solved, -row->stiffness, move);
     }
 }
