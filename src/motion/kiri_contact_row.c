@@ -158,13 +158,13 @@ static bool OnlyLifts(const kiriContactStep* step)
     return IsSoft(step->row) && !(kiriVec3_Dot(step->carried, step->carried) > 0.0);
 }
 
-/* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy, or infinity if it
-   does not yield. */
+/* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy. One that the host moves
+   could supply any, and would press the sheet into any shape: it has none beyond what following it takes (FindMeans). */
 static double MeansOf(const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
     double inverse = InverseMass(step, step->start, step->row->normal);
-    return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
+    return inverse > 0.0 ? 0.5 * speed * speed / inverse : 0.0;
 }
 
 /* Finds the energy available to a body in a step with contacts, J: its own, and the energy that gravity, forces and
