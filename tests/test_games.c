@@ -152,7 +152,7 @@ typedef struct Recorded {
     GameStatus end;
 } Recorded;
 
-/* The game plays itself, after `wait` ticks in which nobody does anything, and its events are kept. */
+/* The game waits for `wait` ticks, and then plays itself. `recorded` keeps its events. */
 static void PlayDemo(const GameType* type, int32_t level, int32_t wait, int32_t ticks, Recorded* recorded)
 {
     static Play play;

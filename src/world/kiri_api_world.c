@@ -97,7 +97,6 @@ kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef*
     def->material = materials[setups[preset].material];
     def->material.thickness *= setups[preset].thickness;
     def->model = setups[preset].model;
-    def->skinning = KIRI_SKINNING_SMOOTH;
     def->gridResolution = squares > 40 ? squares : 40;
     def->frameCount = frames > setups[preset].frames ? frames : setups[preset].frames;
     def->iterations = setups[preset].iterations;
