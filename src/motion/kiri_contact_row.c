@@ -158,8 +158,18 @@ static bool OnlyLifts(const kiriContactStep* step)
     return IsSoft(step->row) && !(kiriVec3_Dot(step->carried, step->carried) > 0.0);
 }
 
-/* Finds the energy available to a body in a step with contacts, J: its own, and what gravity and forces add and following
-   the obstacles takes. A heavy obstacle could supply far more, and would press the sheet into any shape. */
+/* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy. One without a mass could
+   supply any, and would press the sheet into any shape: it supplies what following it takes (FindMeans). A heavy ball needs
+   its own energy, or it falls through a cloth that is held. */
+static double MeansOf(const kiriContactStep* step, double dt)
+{
+    double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
+    double inverse = InverseMass(step, step->start, step->row->normal);
+    return inverse > 0.0 ? 0.5 * speed * speed / inverse : 0.0;
+}
+
+/* Finds the energy available to a body in a step with contacts, J: its own, and the energy that gravity, forces and
+   obstacles may add. */
 static void FindMeans(kiriSolver* solver, const kiriSystem* system)
 {
     kiriContactSum* touch = &solver->touch;
@@ -169,7 +179,9 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
             double out = OnlyLifts(step) && solver->islandCount > 1 ? 0.0 : step->out;
             double lift = kiriVec3_Dot(step->row->normal, step->carried) + out;
             double fast = (kiriVec3_Length(step->carried) + fabs(lift)) / solver->dt;
+            double given = MeansOf(step, solver->dt);
             obstacleSpeed = kiriMax(fast, obstacleSpeed);
+            touch->means = kiriMax(given, touch->means);
             touch->isNear = true;
         }
     }
