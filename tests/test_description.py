@@ -127,12 +127,21 @@ KIRI_API void kiriThree(void);
         self.assertEqual(description["eventFields"]["KIRI_EVENT_DIVERGED"], ["sheet"])
 
     def test_that_an_exception_that_matches_nothing_is_refused(self):
-        describe.NULLABLE.add("kiriNone.of")
+        describe.PARAMETERS["kiriNone.of"] = {}
         try:
             with self.assertRaises(SyntaxError):
                 describe.describe((repository / "include/kiri/kiri.h").read_text())
         finally:
-            describe.NULLABLE.remove("kiriNone.of")
+            del describe.PARAMETERS["kiriNone.of"]
+
+    def test_that_tags_mark_the_pointers_that_calls_take_as_null(self):
+        """every_call.h has null, or `spare`, for these alone: test_api.c makes each other pointer null, and is refused."""
+        calls = repository / "tests/every_call.h"
+        taken = {f"{name}.{i}" for name, given in re.findall(r"^ +(?:CHANGES|READS)\((\w+), (.*?)\)  ", calls.read_text(), re.M)
+                 for i, argument in enumerate(given.split(", ")) if argument in ("NULL", "g->spare")}
+        marked = {f"{function['name']}.{i}" for function in description["functions"] if function["class"]
+                  for i, p in enumerate(function["parameters"]) if p.get("nullable") and p["form"] not in ("world", "id")}
+        self.assertEqual(marked, taken | {"kiriFrame_Hold.2", "kiriFrame_Hold.3"})  # both, or none
 
 
 if __name__ == "__main__":

@@ -5,9 +5,6 @@ import re
 import header
 
 # What the header says of parameters in words only.
-NULLABLE = {"kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_Snapshot.bytes",
-            "kiriSheet_CopyVertices.positions", "kiriSheet_CopyVertices.normals", "kiriSheet_GetWeights.gradients",
-            "kiriFrame_Hold.position", "kiriFrame_Hold.rotation", "kiriBeginBlade.sheet"}
 PARAMETERS = {
     "kiriFillRectangle.restPositions": {"direction": "out", "form": "array",
                                         "length": "2 * (columns + 1) * (rows + 1)"},
@@ -40,8 +37,9 @@ RETURNS = {"kiriGetResultName": "forever", "kiriGetResultText": "forever", "kiri
            "kiriWorld_GetLastError": "until the next call that changes the world"}
 
 # Tags in comments: an id that may be 0, a number that is 0 or 1, a result, a pointer that may be null, an array with so many
-# numbers for each of its rows.
+# numbers for each of its rows, and a parameter that may be left out: null or 0 in C.
 NONE, FLAG, PENDS, NULL = r"\b0: none\b", r"1: ", r"\bKIRI_PENDING: ", r"\b[Nn]ull\b"
+OPTIONAL = r"(?<![*\w]){}`?(?: (?:and|or) \w+)? (?:null|0): "
 ARRAY = r"\b(\d+) (?:floats (?:\(u, v\) )?)?an? (\w+)"
 
 # Bytes and alignment.
@@ -78,7 +76,7 @@ class Describer:
             "functions": [self._function(d) for d in self._declared["function"]],
         }
         description["eventFields"] = self._event_fields()
-        unused = (NULLABLE | set(PARAMETERS)) - self._used
+        unused = set(PARAMETERS) - self._used
         if unused:
             raise SyntaxError(f"not in the header: {sorted(unused)}")
         return description
@@ -199,8 +197,9 @@ class Describer:
         world = parameters[0] if parameters and parameters[0]["type"] == "kiriWorld" else None
         if world and world["stars"] == 1:
             described["changes"] = not world["const"]
-        described["class"], described["method"] = self._method(name, parameters)
-        described["parameters"] = [self._parameter(name, parameters, i) for i in range(len(parameters))]
+        made = [self._parameter(function, i) for i in range(len(parameters))]
+        described["class"], described["method"] = self._method(name, made)
+        described["parameters"] = made
         # Bytes that are pending are no bytes: callers get an error.
         if re.search(PENDS, function["doc"]) and all(p["form"] != "bytes" or p["direction"] == "in" for p in described["parameters"]):
             described["pends"] = True
@@ -212,19 +211,19 @@ class Describer:
 
     def _method(self, name, parameters):
         """The class is that of the id after the world, or the world; f"kiri{class}_{method}" or a verb and the class."""
-        takes_world = bool(parameters) and parameters[0]["type"] == "kiriWorld" and parameters[0]["stars"] == 1
+        takes_world = bool(parameters) and parameters[0]["c"] in ("kiriWorld*", "const kiriWorld*")
         of = "World" if takes_world else None
-        if (takes_world and len(parameters) > 1 and parameters[1]["type"] in self._ids and not parameters[1]["stars"]
-                and f"{name}.{parameters[1]['name']}" not in NULLABLE):
+        if takes_world and len(parameters) > 1 and parameters[1]["c"] in self._ids and not parameters[1].get("nullable"):
             of = parameters[1]["type"][4:]
         method = name[4:].partition("_")[2] or name[4:]
         if of and method == f"Destroy{of}":
             method = "Destroy"
         return of, method
 
-    def _parameter(self, function, parameters, i):
+    def _parameter(self, function, i):
+        parameters = function["parameters"]
         parameter = parameters[i]
-        name = f"{function}.{parameter['name']}"
+        name = f"{function['name']}.{parameter['name']}"
         described = {"name": parameter["name"], "type": parameter["type"], "c": self._c(parameter),
                      **self._passed(parameters, i), **PARAMETERS.get(name, {})}
         self._used.add(name)
@@ -232,8 +231,11 @@ class Describer:
             described["c"] = f"{'const ' if parameter['const'] else ''}{parameter['type']}[{parameter['count']}]"
         if described["form"] == "view":
             described["lives"] = "until the next tick"
-        if described["form"] != "number" and described["form"] != "id" or name in NULLABLE:
-            described["nullable"] = name in NULLABLE
+        optional = parameter["stars"] < 2 and bool(re.search(OPTIONAL.format(parameter["name"]), function["doc"]))
+        if described["form"] not in ("number", "id"):
+            described["nullable"] = optional
+        elif optional:
+            described["nullable" if described["form"] == "id" else "optional"] = True
         return described
 
     def _passed(self, parameters, i):

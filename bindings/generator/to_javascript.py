@@ -11,8 +11,6 @@ HIDDEN = {"kiriWorldDef": {"alloc", "free", "log", "clock", "startTask", "finish
           "kiriDebugDraw": {"points", "lines", "triangles", "user"}}
 # Functions that the host gives by these names.
 HOOKS = {"kiriWorldDef": ["log", "clock", "record"], "kiriDebugDraw": ["points", "lines", "triangles"]}
-# Arguments that may be left out: 0.
-ZEROS = {"kiriCreateRectangle.columns", "kiriCreateRectangle.rows"}
 ARRAYS = {"float": "Float32Array", "double": "Float64Array", "int32_t": "Int32Array", "uint32_t": "Uint32Array",
           "uint16_t": "Uint16Array"}
 HEAPS = {"float": ("F32", 2), "double": ("F64", 3), "int32_t": ("I32", 2), "uint32_t": ("U32", 2),
@@ -241,7 +239,7 @@ class Call:
             else:
                 self.c.append("$capacity")
             return
-        self.arguments.append(p["name"] + (" = 0" if f"{self.function['name']}.{p['name']}" in ZEROS else ""))
+        self.arguments.append(p["name"] + (" = 0" if p.get("optional") else ""))
         if any(q.get("stride") == p["name"] for q in self.function["parameters"]):
             self.arguments[-1] += " = 12"
             self.c.append("12")  # rows go to the host's strides after the call

@@ -6,8 +6,8 @@ import re
 import naming
 
 PARAMETERS = {"from": "start", "to": "end"}  # words of Python
-DEFAULTS = {"substeps": "1", "kiriCreateRectangle.columns": "0", "kiriCreateRectangle.rows": "0",
-            "angularVelocity": "(0.0, 0.0, 0.0)", "torque": "(0.0, 0.0, 0.0)", "thickness": "0.0",
+# What Python's methods may leave out, while C always takes a number.
+DEFAULTS = {"substeps": "1", "angularVelocity": "(0.0, 0.0, 0.0)", "torque": "(0.0, 0.0, 0.0)",
             "inertia": "(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)", "centerOfMass": "(0.0, 0.0, 0.0)",
             "kiriObstacle_SetPose.rotation": "(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)"}
 # By hand, for they are other in Python than in C.
@@ -185,9 +185,10 @@ class Method:
             self._structure(parameter)
             return
         default = DEFAULTS.get(f"{self._function['name']}.{parameter['name']}", DEFAULTS.get(parameter["name"]))
-        if parameter.get("nullable"):
-            default = "None"
-        given = f"{name}: {self._hint(parameter)}" + (f" = {default}" if default else "")
+        hint = self._hint(parameter)
+        if parameter.get("nullable") or parameter.get("optional"):
+            default = {"int": "0", "float": "0.0"}.get(hint, "None")
+        given = f"{name}: {hint}" + (f" = {default}" if default else "")
         (self._keywords if default and self._is_copied() else self._given).append(given)
         if form == "number" and parameter["type"] not in self._ids:
             self._passed.append(name)

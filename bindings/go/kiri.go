@@ -1653,8 +1653,8 @@ var poolWorldCreateRectangle pool[struct {
 }]
 
 // Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-// and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read; null: the
-// defaults. A recording stores it as kiriCreateSheet.
+// or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null:
+// the defaults. A recording stores it as kiriCreateSheet.
 func (w *World) CreateRectangle(width float32, height float32, columns int32, rows int32, def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1831,7 +1831,7 @@ var poolSheetGetSolid pool[struct {
 	solid C.kiriSolid
 }]
 
-// Makes the solid surface. thickness: m, 0: the material's thickness.
+// Makes the solid surface, with a thickness in m; thickness 0: the material's.
 func (s Sheet) Solid(thickness float32) (Solid, error) {
 	var made0 Solid
 	if err := s.World.check(); err != nil {
@@ -2626,7 +2626,7 @@ again:
 }
 
 // Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
-// next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+// next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles.
 func (f Frame) Hold(position *[3]float32, rotation *[9]float32) error {
 	if err := f.World.check(); err != nil {
 		return err

@@ -1327,7 +1327,7 @@ export class World {
      *  a recording, damaged, cut short, or of another version. KIRI_ERROR_STATE: the world is not new.
      *  KIRI_ERROR_MEMORY: start again. */
     replay(recording: Uint8Array, replay: Replay): ResultCode;
-    /** Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+    /** Writes the world to memory with room for `capacity`; bytes null: only counts them. *size: bytes of the save.
      *  KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (World.finishCuts); *size is 0. */
     save(): Uint8Array;
     /** Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
@@ -1340,7 +1340,7 @@ export class World {
      *  KIRI_ERROR_MEMORY. */
     load(bytes: Uint8Array): ResultCode;
     /** For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
-     *  and exact to the bit. For this process only: never store or send the bytes. Arguments as of World.save. */
+     *  and exact to the bit. For this process only: never store or send the bytes. bytes null: as of World.save. */
     snapshot(): Uint8Array;
     /** Replaces the world by the world of the snapshot, as World.load does. The bytes are trusted. On failure nothing
      *  has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY. */
@@ -1353,8 +1353,8 @@ export class World {
      *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     createSheet(def: SheetDefGiven): Sheet;
     /** Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-     *  columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
-     *  read; null: the defaults. A recording stores it as kiriCreateSheet. */
+     *  columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read;
+     *  def null: the defaults. A recording stores it as kiriCreateSheet. */
     createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
     /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
@@ -1410,8 +1410,7 @@ export class Sheet {
     getMesh(into?: Mesh): Mesh;
     /** Gets the changes since a revision; the whole mesh if the revision is too old, or 0. */
     getDirty(sinceRevision: number, into?: Dirty): Dirty;
-    /** Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no
-     *  normals. */
+    /** Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more. KIRI_ERROR_STATE: no normals. */
     copyVertices(first: number, count: number, positions?: Float32Array | null, positionStride?: number, normals?: Float32Array | null, normalStride?: number): ResultCode;
     /** Copies the index that each vertex had when the last tick began, to draw between two ticks; -1: it did not exist.
      *  *from: the sheet that had them then. A vertex that a cut separated has the other's index (manual, drawing). */
@@ -1425,8 +1424,8 @@ export class Sheet {
     /** Map triangles to the def. Sources: the triangle of the def that contains each; -1: it was removed. Weights: 9
      *  floats each, the barycentric coordinates of its three corners there, also beside a welded seam (manual, meshes). */
     copySourceWeights(firstTriangle: number, count: number): Float32Array;
-    /** Makes the solid surface. thickness: m, 0: the material's thickness. */
-    getSolid(thickness: number, into?: Solid): Solid;
+    /** Makes the solid surface, with a thickness in m; thickness 0: the material's. */
+    getSolid(thickness?: number, into?: Solid): Solid;
     /** Gets the collision points: 3 floats of position (m, world) a point. */
     getCollisionPoints(): View<Float32Array>;
     /** Get the counts, at no cost; sum the totals over the frames. */
@@ -1460,8 +1459,8 @@ export class Sheet {
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): Hit;
     /** Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point. */
     getPoint(restPoint: ArrayLike<number>, into?: PointState): PointState;
-    /** Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
-     *  (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is
+    /** Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and gradients (2 floats,
+     *  1/m; gradients null: none). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: a cut is
      *  pending. */
     getWeights(restPoint: ArrayLike<number>): { frames: Frame[], weights: Float32Array, gradients: Float32Array };
     /** Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index. */
@@ -1570,7 +1569,7 @@ export class Frame {
      *  cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
     destroyPiece(): ResultCode;
     /** Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
-     *  next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles. */
+     *  next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles. */
     hold(position?: ArrayLike<number> | null, rotation?: ArrayLike<number> | null): ResultCode;
     /** Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means
      *  over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free

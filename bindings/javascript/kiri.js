@@ -2136,7 +2136,7 @@ export class Sheet extends Thing {
         }
     }
 
-    getSolid(thickness, into = new Solid()) {
+    getSolid(thickness = 0, into = new Solid()) {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetSolid($world, this.id, thickness, scratch);
         if ($result < 0) {

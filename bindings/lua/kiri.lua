@@ -745,8 +745,8 @@ function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
 
---- Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or
---- null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null:
+--- nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
     C.kiriDefaultWorldDef(def)
@@ -839,7 +839,7 @@ function World:replay(recording, replay, size)
     return result == 1
 end
 
---- Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+--- Writes the world to memory with room for `capacity`; bytes null: only counts them. *size: bytes of the save.
 --- KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.
 function World:save(bytes, capacity)
     local world = self
@@ -874,7 +874,7 @@ function World:load(bytes, size)
 end
 
 --- For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
---- and exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save.
+--- and exact to the bit. For this process only: never store or send the bytes. bytes null: as of kiriWorld_Save.
 function World:snapshot(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Snapshot(world.c, bytes, capacity or 0, out.int64_t)
@@ -977,7 +977,7 @@ function kiri.getSetup(preset, width, height, def)
 end
 
 --- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read;
+--- columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
 --- null: the defaults. A recording stores it as kiriCreateSheet.
 function World:createRectangle(width, height, columns, rows, def)
     local world = self
@@ -1069,7 +1069,7 @@ function Sheet:getDirty(sinceRevision, dirty)
     return dirty
 end
 
---- Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals.
+--- Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more. KIRI_ERROR_STATE: no normals.
 function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride)
     local world = self.world
     local result = C.kiriSheet_CopyVertices(world.c, self.id, first, count, positions, positionStride, normals, normalStride)
@@ -1116,7 +1116,7 @@ function Sheet:copySourceWeights(firstTriangle, count, weights)
     return weights
 end
 
---- Makes the solid surface. thickness: m, 0: the material's thickness.
+--- Makes the solid surface, with a thickness in m; thickness 0: the material's.
 function Sheet:getSolid(thickness, solid)
     local world = self.world
     solid = solid or new.kiriSolidView()
@@ -1299,8 +1299,9 @@ function Sheet:getPoint(restPoint, state)
     return state
 end
 
---- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
---- (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and gradients (2 floats,
+--- 1/m; gradients null: none). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: a cut is
+--- pending.
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
@@ -1516,7 +1517,7 @@ function Sheet:getFrames()
 end
 
 --- Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
---- next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+--- next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles.
 function Frame:hold(position, rotation)
     local world = self.world
     local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))

@@ -111,7 +111,7 @@ typedef struct kiriWorldDef {
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
 } kiriWorldDef;
 
-/* Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or null.
+/* Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null: nothing).
    KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
@@ -168,7 +168,7 @@ KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, in
 /* A save has all that cannot be made again. A loaded world goes on as the saved one, bit for bit, with the same ids, on
    any machine with the same version. Only with a budget a later cut may take effect in another tick. */
 
-/* Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+/* Writes the world to memory with room for `capacity`; bytes null: only counts them. *size: bytes of the save.
    KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0. */
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
@@ -182,7 +182,7 @@ KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save, and
-   exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save. */
+   exact to the bit. For this process only: never store or send the bytes. bytes null: as of kiriWorld_Save. */
 KIRI_API kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
 /* Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
@@ -390,8 +390,8 @@ KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
    sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy). */
 KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
 
-/* Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-   and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read; null: the
+/* Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or
+   rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null: the
    defaults. A recording stores it as kiriCreateSheet. */
 KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                         const kiriSheetDef* def, kiriSheet* sheet);
@@ -479,7 +479,7 @@ typedef struct kiriDirty {
 KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision,
                                        kiriDirty* dirty);
 
-/* Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals. */
+/* Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more. KIRI_ERROR_STATE: no normals. */
 KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);
@@ -512,7 +512,7 @@ typedef struct kiriSolid {
     int32_t rimTriangle; /* rims begin at this triangle */
 } kiriSolid;
 
-/* Makes the solid surface. thickness: m, 0: the material's thickness. */
+/* Makes the solid surface, with a thickness in m; thickness 0: the material's. */
 KIRI_API kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid);
 
 /* Gets the collision points: 3 floats of position (m, world) a point. */
@@ -588,8 +588,8 @@ typedef struct kiriPointState {
 KIRI_API kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                        kiriPointState* state);
 
-/* Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients (2
-   floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+/* Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and gradients (2 floats,
+   1/m; gradients null: none). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: a cut is pending. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
@@ -707,8 +707,8 @@ typedef struct kiriFrameState {
 KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFrame* frames, int32_t capacity,
                                         int32_t* count);
 
-/* Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
-   the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles. */
+/* Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
+   next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied to the sheet: means over

@@ -554,7 +554,7 @@ namespace Kiri
             }
         }
 
-        /// <summary>Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+        /// <summary>Writes the world to memory with room for `capacity`; bytes null: only counts them. *size: bytes of the save.
         /// KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.</summary>
         public long Save(byte[] bytes)
         {
@@ -594,7 +594,7 @@ namespace Kiri
         }
 
         /// <summary>For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a
-        /// save, and exact to the bit. For this process only: never store or send the bytes. Arguments as of
+        /// save, and exact to the bit. For this process only: never store or send the bytes. bytes null: as of
         /// kiriWorld_Save.</summary>
         public long Snapshot(byte[] bytes)
         {
@@ -663,8 +663,8 @@ namespace Kiri
         }
 
         /// <summary>Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        /// columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
-        /// read; null: the defaults. A recording stores it as kiriCreateSheet.</summary>
+        /// columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not
+        /// read; def null: the defaults. A recording stores it as kiriCreateSheet.</summary>
         public Sheet CreateRectangle(float width, float height, int columns, int rows, SheetDef? @def = null)
         {
             SheetDef defValue = @def.GetValueOrDefault();
@@ -1003,7 +1003,7 @@ namespace Kiri
             }
         }
 
-        /// <summary>Makes the solid surface. thickness: m, 0: the material's thickness.</summary>
+        /// <summary>Makes the solid surface, with a thickness in m; thickness 0: the material's.</summary>
         public SolidView GetSolid(float thickness)
         {
             var solidValue = new NativeSolid();
@@ -1114,8 +1114,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null
-        /// gradients (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a
+        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and gradients (2
+        /// floats, 1/m; gradients null: none). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: a
         /// cut is pending.</summary>
         public int GetWeights(Float2 restPoint, FrameId[] frames, float[] weights, float[] gradients)
         {
@@ -1418,7 +1418,7 @@ namespace Kiri
         }
 
         /// <summary>Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in
-        /// the next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through
+        /// the next tick; position and rotation null: frees it. Material that held frames mostly carry moves through
         /// obstacles.</summary>
         public void Hold(Float3? position = null, Float9? rotation = null)
         {

@@ -599,8 +599,8 @@ function kiri.getResultName(result) end
 ---@return string
 function kiri.getResultText(result) end
 
---- Fill the def; create an empty world (on failure *world is null, and the log gets the line); free all of it, or
---- null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null:
+--- nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
 ---@param def? kiri.WorldDef
 ---@return kiri.WorldDef
 function kiri.defaultWorldDef(def) end
@@ -661,7 +661,7 @@ function World:note(bytes, count) end
 ---@return boolean # work is left for later ticks
 function World:replay(recording, replay, size) end
 
---- Writes the world to memory with room for `capacity` bytes; null: only counts them. *size: bytes of the save.
+--- Writes the world to memory with room for `capacity`; bytes null: only counts them. *size: bytes of the save.
 --- KIRI_ERROR_ARGUMENT: `capacity` is less. KIRI_PENDING: a cut is pending (kiriWorld_FinishCuts); *size is 0.
 ---@param bytes? string|ffi.cdata*
 ---@param capacity? integer
@@ -684,7 +684,7 @@ function World:finishCuts() end
 function World:load(bytes, size) end
 
 --- For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
---- and exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save.
+--- and exact to the bit. For this process only: never store or send the bytes. bytes null: as of kiriWorld_Save.
 ---@param bytes? string|ffi.cdata*
 ---@param capacity? integer
 ---@return string
@@ -758,7 +758,7 @@ function Sheet:destroy() end
 function kiri.getSetup(preset, width, height, def) end
 
 --- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not read;
+--- columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
 --- null: the defaults. A recording stores it as kiriCreateSheet.
 ---@param width number
 ---@param height number
@@ -828,7 +828,7 @@ function Sheet:getMesh(mesh) end
 ---@return kiri.Dirty
 function Sheet:getDirty(sinceRevision, dirty) end
 
---- Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null. KIRI_ERROR_STATE: no normals.
+--- Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more. KIRI_ERROR_STATE: no normals.
 ---@param first integer
 ---@param count integer
 ---@param positions? number[]|ffi.cdata*
@@ -870,7 +870,7 @@ function Sheet:copySources(firstTriangle, count, sources) end
 ---@return ffi.cdata*
 function Sheet:copySourceWeights(firstTriangle, count, weights) end
 
---- Makes the solid surface. thickness: m, 0: the material's thickness.
+--- Makes the solid surface, with a thickness in m; thickness 0: the material's.
 ---@param thickness number
 ---@param solid? kiri.Solid
 ---@return kiri.Solid
@@ -988,8 +988,9 @@ function World:raycast(origin, direction, maxDistance, hit) end
 ---@return kiri.PointState
 function Sheet:getPoint(restPoint, state) end
 
---- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and unless null gradients
---- (2 floats, 1/m). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- Gets the shape functions at a rest point: up to `capacity` frames with weights, sum 1, and gradients (2 floats,
+--- 1/m; gradients null: none). *count: all. KIRI_ERROR_ARGUMENT: outside the sheet. KIRI_ERROR_STATE: a cut is
+--- pending.
 ---@param restPoint number[]|ffi.cdata*
 ---@return kiri.Frame[]
 ---@return number[]
@@ -1132,7 +1133,7 @@ function Blade:finish() end
 function Sheet:getFrames() end
 
 --- Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
---- next tick, and stays. Null, null: frees it. Material that held frames mostly carry moves through obstacles.
+--- next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles.
 ---@param position? number[]|ffi.cdata*
 ---@param rotation? number[]|ffi.cdata*
 ---@return boolean # work is left for later ticks

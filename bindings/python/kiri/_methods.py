@@ -160,8 +160,8 @@ class World:
 
     def create_rectangle(self, width: float, height: float, columns: int = 0, rows: int = 0, **fields: Unpack[SheetDef]) -> kiri.Sheet:
         """Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of its squares. def: its mesh is not
-        read; None: the defaults. A recording stores it as kiriCreateSheet.
+        columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not
+        read; def None: the defaults. A recording stores it as kiriCreateSheet.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
@@ -246,7 +246,7 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetDirty', 'kiriDirty', self.id, since_revision), self.world)
 
     def solid(self, *names: str, thickness: float = 0.0) -> Record:
-        """Makes the solid surface. thickness: m, 0: the material's thickness."""
+        """Makes the solid surface, with a thickness in m; thickness 0: the material's."""
         return self.world.get_copies(names, 'kiriSheet_GetSolid', 'kiriSolid', self.id, thickness)
 
     def solid_view(self, thickness: float = 0.0) -> core.Loan:

@@ -1052,17 +1052,17 @@ unsafe extern "C" {
     /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
     /// line with its meaning.
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
-    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
-    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
-    /// float operations (manual, budget).
+    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
+    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
+    /// changes float operations (manual, budget).
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
-    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
-    /// float operations (manual, budget).
+    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
+    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
+    /// changes float operations (manual, budget).
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
-    /// Fill the def; create an empty world (on failure \*world is null, and the log gets the line);
-    /// free all of it, or null. KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes
-    /// float operations (manual, budget).
+    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
+    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
+    /// changes float operations (manual, budget).
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
@@ -1098,7 +1098,7 @@ unsafe extern "C" {
     /// short, or of another version. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY:
     /// start again.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
-    /// Writes the world to memory with room for \`capacity\` bytes; null: only counts them. \*size:
+    /// Writes the world to memory with room for \`capacity\`; bytes null: only counts them. \*size:
     /// bytes of the save. KIRI_ERROR_ARGUMENT: \`capacity\` is less. KIRI_PENDING: a cut is pending
     /// (kiriWorld_FinishCuts); \*size is 0.
     pub fn kiriWorld_Save(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
@@ -1113,7 +1113,7 @@ unsafe extern "C" {
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// For rollback: copies all of the world, also work in progress, into memory of the host; much
     /// faster than a save, and exact to the bit. For this process only: never store or send the
-    /// bytes. Arguments as of kiriWorld_Save.
+    /// bytes. bytes null: as of kiriWorld_Save.
     pub fn kiriWorld_Snapshot(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
     /// Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are
     /// trusted. On failure nothing has changed: KIRI_ERROR_DATA: no snapshot of this build.
@@ -1150,8 +1150,8 @@ unsafe extern "C" {
     /// kiriDefaultSheetDef has them (manual, accuracy).
     pub fn kiriGetSetup(preset: i32, width: f32, height: f32, def: *mut kiriSheetDef) -> kiriResult;
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of
-    /// its squares. def: its mesh is not read; null: the defaults. A recording stores it as
+    /// \* rows triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at
+    /// most 4096. The mesh of def is not read; def null: the defaults. A recording stores it as
     /// kiriCreateSheet.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
     /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
@@ -1182,7 +1182,7 @@ unsafe extern "C" {
     pub fn kiriSheet_GetMesh(world: *const kiriWorld, sheet: kiriSheet, mesh: *mut kiriMesh) -> kiriResult;
     /// Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
     pub fn kiriSheet_GetDirty(world: *const kiriWorld, sheet: kiriSheet, sinceRevision: u32, dirty: *mut kiriDirty) -> kiriResult;
-    /// Copies positions and normals, 3 floats each; strides in bytes, 12 or more; or null.
+    /// Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more.
     /// KIRI_ERROR_STATE: no normals.
     pub fn kiriSheet_CopyVertices(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, positions: *mut c_void, positionStride: i32, normals: *mut c_void, normalStride: i32) -> kiriResult;
     /// Copies the index that each vertex had when the last tick began, to draw between two ticks;
@@ -1200,7 +1200,7 @@ unsafe extern "C" {
     /// removed. Weights: 9 floats each, the barycentric coordinates of its three corners there,
     /// also beside a welded seam (manual, meshes).
     pub fn kiriSheet_CopySourceWeights(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, weights: *mut f32) -> kiriResult;
-    /// Makes the solid surface. thickness: m, 0: the material's thickness.
+    /// Makes the solid surface, with a thickness in m; thickness 0: the material's.
     pub fn kiriSheet_GetSolid(world: *mut kiriWorld, sheet: kiriSheet, thickness: f32, solid: *mut kiriSolid) -> kiriResult;
     /// Gets the collision points: 3 floats of position (m, world) a point.
     pub fn kiriSheet_GetCollisionPoints(world: *const kiriWorld, sheet: kiriSheet, positions: *mut *const f32, count: *mut i32) -> kiriResult;
@@ -1263,8 +1263,8 @@ unsafe extern "C" {
     /// that has the point.
     pub fn kiriSheet_GetPoint(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, state: *mut kiriPointState) -> kiriResult;
     /// Gets the shape functions at a rest point: up to \`capacity\` frames with weights, sum 1, and
-    /// unless null gradients (2 floats, 1/m). \*count: all. KIRI_ERROR_ARGUMENT: outside the sheet.
-    /// KIRI_ERROR_STATE: work on a cut is pending.
+    /// gradients (2 floats, 1/m; gradients null: none). \*count: all. KIRI_ERROR_ARGUMENT: outside
+    /// the sheet. KIRI_ERROR_STATE: a cut is pending.
     pub fn kiriSheet_GetWeights(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, frames: *mut kiriFrame, weights: *mut f32, gradients: *mut f32, capacity: i32, count: *mut i32) -> kiriResult;
     /// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no
     /// piece has the index.
@@ -1348,8 +1348,8 @@ unsafe extern "C" {
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;
     /// Holds the frame: its rest point moves evenly to \`position\` (m, world) with \`rotation\`
-    /// (columns as above) in the next tick, and stays. Null, null: frees it. Material that held
-    /// frames mostly carry moves through obstacles.
+    /// (columns as above) in the next tick; position and rotation null: frees it. Material that
+    /// held frames mostly carry moves through obstacles.
     pub fn kiriFrame_Hold(world: *mut kiriWorld, frame: kiriFrame, position: *const f32, rotation: *const f32) -> kiriResult;
     /// Get the state; force (N, world) and torque (N m, about the rest point) that the hold applied
     /// to the sheet: means over the last tick that moved the piece, with the frame's own weight and

@@ -2517,7 +2517,7 @@ impl World {
         Ok(())
     }
 
-    /// Writes the world to memory with room for capacity bytes; null: only counts them. \*size:
+    /// Writes the world to memory with room for capacity; bytes null: only counts them. \*size:
     /// bytes of the save. [`ResultCode::ErrorArgument`]: capacity is less. [`ResultCode::Pending`]:
     /// a cut is pending ([`World::finish_cuts`]); \*size is 0.
     pub fn save(&self) -> Result<Vec<u8>> {
@@ -2560,7 +2560,7 @@ impl World {
 
     /// For rollback: copies all of the world, also work in progress, into memory of the host; much
     /// faster than a save, and exact to the bit. For this process only: never store or send the
-    /// bytes. Arguments as of [`World::save`].
+    /// bytes. bytes null: as of [`World::save`].
     pub fn snapshot(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
@@ -2609,8 +2609,8 @@ impl World {
     }
 
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns and rows are 1 to 4096, or 0: as many as fit the grid, 3 for 2 of
-    /// its squares. def: its mesh is not read; null: the defaults. A recording stores it as
+    /// \* rows triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at
+    /// most 4096. The mesh of def is not read; def null: the defaults. A recording stores it as
     /// [`World::create_sheet`].
     pub fn create_rectangle(&mut self, width: f32, height: f32, columns: i32, rows: i32, def: Option<&SheetDef<'_>>) -> Result<Sheet> {
         let def = def.map(|def| def.raw());
@@ -2827,7 +2827,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Makes the solid surface. thickness: m, 0: the material's thickness.
+    /// Makes the solid surface, with a thickness in m; thickness 0: the material's.
     pub fn solid(self, world: &mut World, thickness: f32) -> Result<Solid<'_>> {
         let mut solid = MaybeUninit::<sys::kiriSolid>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2959,8 +2959,9 @@ impl Sheet {
     }
 
     /// Gets the shape functions at a rest point: up to capacity frames with weights, sum 1, and
-    /// unless null gradients (2 floats, 1/m). \*count: all. [`ResultCode::ErrorArgument`]: outside
-    /// the sheet. [`ResultCode::ErrorState`]: work on a cut is pending.
+    /// gradients (2 floats, 1/m; gradients null: none). \*count: all.
+    /// [`ResultCode::ErrorArgument`]: outside the sheet. [`ResultCode::ErrorState`]: a cut is
+    /// pending.
     pub fn weights(self, world: &World, rest_point: impl Into<[f32; 2]>) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
         let rest_point: [f32; 2] = rest_point.into();
         let mut frames = Vec::<Frame>::new();
@@ -3288,7 +3289,7 @@ impl Frame {
     }
 
     /// Holds the frame: its rest point moves evenly to position (m, world) with rotation (columns
-    /// as above) in the next tick, and stays. Null, null: frees it. Material that held frames
+    /// as above) in the next tick; position and rotation null: frees it. Material that held frames
     /// mostly carry moves through obstacles.
     pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
