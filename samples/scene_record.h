@@ -20,18 +20,19 @@ void Scene_NoteTick(Scene* scene);
 
 typedef struct SceneReplay {
     uint8_t* bytes;
-    int64_t size;
+    int64_t byteCount;
     kiriReplay at;
     int32_t ticks;            /* that it has; of a save SCENE_SAVE_TICKS */
     bool isRight;             /* everything went as recorded */
     bool isSave;              /* bytes of kiriWorld_Save: the world goes on from there */
-    float lower[3], upper[3]; /* m: box around all sheets, in the first tick that has some */
+    float size, distance;     /* m: of the box that the camera shows, and to it; size 0: the scene has a camera */
+    float* targets;           /* m: where it looks, 3 floats a tick */
 } SceneReplay;
 
 enum { SCENE_SAVE_TICKS = 600 };
 
 /* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from
-   it. The type: the colours of a recording without a scene, whose camera sees all sheets of its first tick. */
+   it. The type: the colours of a recording without a scene. Its camera shows held pieces, and moving ones near them. */
 bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def);
 

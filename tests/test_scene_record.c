@@ -113,6 +113,39 @@ TEST(WorldsOfHosts)
     remove(filePath);
 }
 
+/* A cut takes the larger part off a held sheet, and it falls sideways: the camera stays. */
+TEST(HeldPieceStaysSeen)
+{
+    FILE* file;
+    kiriWorld* world;
+    kiriSheet sheet;
+    uint32_t id;
+    SCOPED(Scene, scene, Scene_Stop);
+    SCOPED(SceneReplay, replay, SceneReplay_Free);
+    kiriWorldDef def = DefaultWorld();
+    kiriSheetDef sheetDef = DefaultSheet();
+    def.gravity[0] = 9.81f;
+    assert_true(SceneRecord_Open(&file, filePath, &def));
+    kiriCreateWorld(&def, &world);
+    kiriCreateRectangle(world, 1.0f, 1.0f, 8, 8, &sheetDef, &sheet);
+    assert_int_equal(kiriSheet_ClampLine(world, sheet, (float[]){ 0.0f, 0.0f }, (float[]){ 0.0f, 1.0f }, &id), KIRI_OK);
+    assert_int_equal(kiriBeginCut(world, sheet, (float[]){ 0.2f, -0.1f }, &id), KIRI_OK);
+    assert_int_equal(kiriCut_Extend(world, id, (float[]){ 0.2f, 1.1f }, 1), KIRI_OK);
+    for (int32_t i = 0; i < 120; i++) {
+        kiriWorld_Tick(world, 1.0f / 60.0f, 2);
+    }
+    kiriDestroyWorld(world);
+    assert_true(SceneRecord_Close(file, filePath));
+    kiriDefaultWorldDef(&def);
+    assert_true(SceneReplay_Start(&replay, filePath, &scene, Scene_GetType(0), &def));
+    for (int32_t i = 0; i < 120; i++) {
+        assert_int_equal(SceneReplay_Tick(&replay, &scene), KIRI_PENDING);
+        float target = scene.type->size * scene.type->camera.target[0];
+        assert_true(target > 0.0f && target < 1.0f);
+    }
+    remove(filePath);
+}
+
 TEST(NoRecording)
 {
     Scene scene;
