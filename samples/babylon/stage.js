@@ -61,7 +61,7 @@ export function makeStage(canvas, { radius, position }, size) {
     const engine = new Engine(canvas, true), scene = new Scene(engine);
     scene.useRightHandedSystem = true; // as the library
     scene.clearColor = Color4.FromHexString("#d9d4cbff");
-    const camera = new ArcRotateCamera("camera", 1.1, 1.05, 1.1, new Vector3(0, 0.28, 0), scene);
+    const camera = new ArcRotateCamera("camera", 1.1, 1.15, 1.0, new Vector3(0, 0.24, 0), scene);
     Object.assign(camera, { minZ: 0.05, lowerRadiusLimit: 0.6, upperRadiusLimit: 4, upperBetaLimit: 1.5, wheelDeltaPercentage: 0.01 });
     camera.attachControl();
     const shadows = makeLight(scene);
