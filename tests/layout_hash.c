@@ -62,6 +62,7 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
     kiriHash_Double(hash, link->outer);
     kiriHash_Double(hash, link->beyond);
+    kiriHash_Double(hash, link->square);
     kiriHash_Double(hash, link->lean);
     HashVec2(hash, link->span);
     HashVec2(hash, link->normal);

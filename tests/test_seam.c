@@ -256,7 +256,7 @@ TEST(Sleeve)
 {
     for (int32_t k = 0; k < 8; k += IS_SANITIZED ? 3 : 1) { /* each material, skinning and count once */
         MoveSleeve(k < 4 ? KIRI_MATERIAL_COTTON : KIRI_MATERIAL_PAPER, k % 2, k % 4 < 2 ? 24 : 17, 0.045f,
-                   k % 4 < 2 ? 4e-7 : 4e-4);
+                   k % 4 < 2 ? 4e-7 : 1e-3);
     }
     /* Other arms do not press it into any shape either, when they turn back. */
     static const float radii[4] = { 0.043f, 0.0448f, 0.0452f, 0.0455f };

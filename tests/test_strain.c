@@ -275,8 +275,9 @@ static double CoupleEnergy(Pair* s, kiriVec3 move, kiriVec3 turn)
     return energy;
 }
 
-/* Each energy of the table by itself, of a border of which `outer` is open. */
-static void CheckEnergies(double outer)
+/* Each energy of the table by itself, of a border of which `outer` is open, and of which `square` leads to corners of four
+   regions. */
+static void CheckEnergies(double outer, double square)
 {
     const double e = 1e-5, L = 0.2, W = 0.1;
     Pair pair;
@@ -290,6 +291,7 @@ static void CheckEnergies(double outer)
         frame->mass = L * W * (double)Paper.density * (double)Paper.thickness;
     }
     pair.link = (kiriLink){ .i = 0, .j = 1, .width = W, .length = L, .moment = W * W * W / 12.0, .outer = outer };
+    pair.link.square = square;
     pair.link.normal = kiriVec2_Make(1.0, 0.0);
     pair.link.tangent = kiriVec2_Make(0.0, 1.0);
     pair.link.span = kiriVec2_Make(L, 0.0);
@@ -312,7 +314,7 @@ static void CheckEnergies(double outer)
     double lone = outer > 0.5 * W ? 2.0 * outer - W : 0.0;
     double gap = 3.0 * inner + (1.0 - nu * nu) * (12.0 * (outer - lone) + lone);
     AssertNear(normal / (0.5 * 12.0 * B * gap / (L * L) * e * e), 1.0, 0.02); /* a little stretch */
-    double spread = W * W * W / 12.0 * (1.0 + 1.5 * nu / (1.0 + nu) * inner / W);
+    double spread = W * W * W / 12.0 * (1.0 + 1.5 * nu / (1.0 + nu) * square / W);
     AssertNear(plane / (0.5 * membrane * spread * e * e), 1.0, 1e-6);
     /* The sites stay a chord apart, and an arc would draw them nearer by L e^2 / 12. */
     double arc = L * e * e / 12.0, drawn = 0.5 * membrane * (inner / (1.0 + nu) + outer) * arc * arc;
@@ -322,9 +324,9 @@ static void CheckEnergies(double outer)
 
 TEST(Energies)
 {
-    CheckEnergies(0.0);
-    CheckEnergies(0.02);
-    CheckEnergies(0.1);
+    CheckEnergies(0.0, 0.1);
+    CheckEnergies(0.02, 0.03);
+    CheckEnergies(0.1, 0.0);
 }
 
 /* ---- Bodies ---- */

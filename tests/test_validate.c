@@ -379,6 +379,7 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
             s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
         })
     WAY("has outer width", links[0].outer = -1e-9)
+    WAY("square", links[0].square = 2.0 * links[0].width)
     WAY("its sites are", links[0].length *= 0.9)
     return NULL;
 }
@@ -389,7 +390,7 @@ static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
     assert_true(s->links.corners.count > 0);
     WAY("has 2 links", corner->count = 2)
     WAY("corners: corner 0 has link", corner->link[2] = s->links.links.count)
-    WAY("weights of corner 0", corner->weight[1].x *= 1.001)
+    WAY("weights of corner 0", corner->weight[1].x += 0.01)
     WAY("has area 0", corner->area = 0.0)
     return NULL;
 }

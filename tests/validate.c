@@ -136,6 +136,8 @@ static bool Check_Links(Check* check, const kiriSheetData* sheet)
         REQUIRE(link->fold >= 0 && link->fold <= sheet->mesh.folds.count, "link %d has fold %d", k, link->fold);
         REQUIRE(link->outer >= 0.0 && link->outer <= link->width && link->beyond >= 0.0,
                 "link %d of width %g has outer width %g and %g beyond", k, link->width, link->outer, link->beyond);
+        REQUIRE(link->square >= 0.0 && link->square <= link->width - link->outer, "link %d of width %g has %g square", k,
+                link->width, link->square);
         REQUIRE(IsNear(kiriVec2_Length(link->normal), 1.0, 1e-9) && IsNear(link->tangent.x, -link->normal.y, 1e-12) &&
                     IsNear(link->tangent.y, link->normal.x, 1e-12),
                 "link %d has normal (%g, %g)", k, link->normal.x, link->normal.y);

@@ -140,28 +140,48 @@ static inline int32_t Voronoi_LinkOf(const Voronoi* v, int32_t i, int32_t j)
     return KIRI_NONE;
 }
 
+/* The place that is as far from each of three sites. */
+static inline kiriVec2 Voronoi_CenterOf(kiriVec2 a, kiriVec2 b, kiriVec2 c)
+{
+    kiriVec2 s = kiriVec2_Sub(b, a), t = kiriVec2_Sub(c, a);
+    double ss = kiriVec2_Dot(s, s), tt = kiriVec2_Dot(t, t), per = 0.5 / kiriVec2_Cross(s, t);
+    return kiriVec2_Make(a.x + per * (t.y * ss - s.y * tt), a.y + per * (s.x * tt - t.x * ss));
+}
+
+/* The width of a link up to the corner, by its length; 0 if the third site sees the corner beyond the link. */
+static inline double Voronoi_ShareOf(const kiriLink* link, kiriVec2 at, kiriVec2 third)
+{
+    double way = kiriVec2_Dot(kiriVec2_Sub(at, link->crossing), link->tangent);
+    double side = kiriVec2_Dot(kiriVec2_Sub(third, link->crossing), link->tangent);
+    return fmax(side < 0.0 ? -way : way, 0.0) / link->length;
+}
+
 /* A ring of `count` regions. */
 static inline void Voronoi_AddCorner(Voronoi* v, const int32_t* ring, int count)
 {
     assert_true(v->system.cornerCount < VORONOI_LINKS);
     kiriCorner* c = &v->corners[v->system.cornerCount];
-    double xx = 0.0, xy = 0.0, yy = 0.0, pairs = 0.0;
+    kiriVec2 at = Voronoi_CenterOf(v->sites[ring[0]], v->sites[ring[1]], v->sites[ring[2]]);
+    double xx = 0.0, xy = 0.0, yy = 0.0, pairs = 0.0, share[4];
     memset(c, 0, sizeof(*c));
     c->count = count;
     for (int k = 0; k < 4; ++k) {
         c->link[k] = k < count ? Voronoi_LinkOf(v, ring[k], ring[(k + 1) % count]) : KIRI_NONE;
         if (k < count) {
             assert_true(c->link[k] != KIRI_NONE);
-            kiriVec2 s = v->links[c->link[k]].span;
-            xx += s.x * s.x;
-            xy += s.x * s.y;
-            yy += s.y * s.y;
+            kiriLink* link = &v->links[c->link[k]];
+            kiriVec2 s = link->span;
+            share[k] = Voronoi_ShareOf(link, at, v->sites[ring[(k + 2) % count]]);
+            link->square += count == 4 ? share[k] * link->length : 0.0;
+            xx += share[k] * s.x * s.x;
+            xy += share[k] * s.x * s.y;
+            yy += share[k] * s.y * s.y;
         }
     }
     double det = xx * yy - xy * xy;
     for (int k = 0; k < count; ++k) {
         kiriVec2 s = v->links[c->link[k]].span, t = v->links[c->link[(k + 1) % count]].span;
-        c->weight[k] = kiriVec2_Make((yy * s.x - xy * s.y) / det, (xx * s.y - xy * s.x) / det);
+        c->weight[k] = kiriVec2_Scale(share[k] / det, kiriVec2_Make(yy * s.x - xy * s.y, xx * s.y - xy * s.x));
         c->area += 0.5 * fabs(s.x * t.y - s.y * t.x) * (count == 4 ? 2.0 : 1.0);
         pairs += 1.0;
     }

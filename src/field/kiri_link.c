@@ -3,7 +3,7 @@
 #include "kiri_site.h"
 
 /* Links and corners are hashed and compared byte by byte. */
-typedef char LinkHasNoPadding[sizeof(kiriLink) == 4 * sizeof(int32_t) + 25 * sizeof(double) ? 1 : -1];
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 4 * sizeof(int32_t) + 26 * sizeof(double) ? 1 : -1];
 typedef char CornerHasNoPadding[sizeof(kiriCorner) == 6 * sizeof(int32_t) + 9 * sizeof(double) ? 1 : -1];
 
 /* Cost in items of the budget: a border cell whose steps are read, one whose faces are read, a kept link beside a dirty
@@ -997,17 +997,20 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
 static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     bool all = ends->end[0].kind == KIRI_END_OPEN && ends->end[1].kind == KIRI_END_OPEN;
-    double sum = 0.0;
+    double sum = 0.0, square = 0.0;
     KIRI_TIMES(k, 2) {
         double way = kiriVec2_Dot(kiriVec2_Sub(ends->end[k].at, link->crossing), link->tangent);
         way = k == 0 ? -way : way;
         sum += ends->end[k].kind == KIRI_END_OPEN && way > 0.0 ? way : 0.0;
+        bool isSquare = ends->end[k].kind == KIRI_END_CORNER && ends->end[k].region[3] != KIRI_NONE;
+        square += isSquare && way > 0.0 ? way : 0.0;
         double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
         if (!all && ends->end[k].kind == KIRI_END_OPEN && ends->end[k].isExact && fabs(along) > LEAST_ALONG) {
             link->lean = kiriVec2_Dot(ends->end[k].edge, link->tangent) / along;
         }
     }
     link->outer = all ? link->width : kiriMin(sum, link->width);
+    link->square = kiriMin(square, link->width - link->outer);
     link->beyond = !all && link->width > kiriSliver * u->grid->side ? kiriMax(sum - link->width, 0.0) : 0.0;
 }
 
@@ -1302,6 +1305,17 @@ static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t
     return true;
 }
 
+/* Returns the part of a link's width between its crossing and this end: 0 if the crossing is beyond, because weights of both
+   signs would make narrow corners stiff. */
+static double WidthBeside(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end)
+{
+    const kiriLink* link = &u->links->next.data[k];
+    const kiriLinkEnd* ends = u->work->nextEnds.data[k].end;
+    bool isTail = AreEndsOne(&ends[0], end, u->grid->side);
+    double way = kiriVec2_Dot(kiriVec2_Sub(ends[isTail ? 0 : 1].at, link->crossing), link->tangent);
+    return kiriMax(isTail ? -way : way, 0.0);
+}
+
 /* Below this determinant of N, relative to its trace squared, the links of a corner have one direction. */
 static const double kiriFlatCorner = 1e-3;
 
@@ -1312,16 +1326,17 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
 {
     const kiriLink* next = u->links->next.data;
     int32_t list[4], count = end->kind == KIRI_END_CORNER ? ListLinksAt(u, end, list) : 0;
-    double sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    double sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, share[4];
     kiriCorner corner = { 0 };
     if (count < 3 || count > 4 || list[0] != k || !IsRing(u->links, end, list, count)) {
         return true;
     }
     KIRI_TIMES(a, count) {
         const kiriLink* x = &next[list[a]];
-        xx += x->span.x * x->span.x;
-        xy += x->span.x * x->span.y;
-        yy += x->span.y * x->span.y;
+        share[a] = WidthBeside(u, list[a], end) / x->length;
+        xx += share[a] * x->span.x * x->span.x;
+        xy += share[a] * x->span.x * x->span.y;
+        yy += share[a] * x->span.y * x->span.y;
         KIRI_FROM_TO(b, a + 1, count) {
             const kiriLink* y = &next[list[b]];
             bool shareRegion = x->i == y->i || x->i == y->j || x->j == y->i || x->j == y->j;
@@ -1336,7 +1351,7 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
     corner.area = count == 3 ? sum / 6.0 : sum / 4.0;
     KIRI_TIMES(c, 4) {
         corner.link[c] = c < count ? list[c] : KIRI_NONE;
-        kiriVec2 s = c < count ? next[list[c]].span : kiriVec2_Make(0.0, 0.0);
+        kiriVec2 s = c < count ? kiriVec2_Scale(share[c], next[list[c]].span) : kiriVec2_Make(0.0, 0.0);
         corner.weight[c] = kiriVec2_Make((yy * s.x - xy * s.y) / det, (xx * s.y - xy * s.x) / det);
     }
     return kiriArray_Push(u->memory, &u->links->nextCorners, corner);

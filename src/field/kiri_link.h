@@ -18,6 +18,7 @@ typedef struct kiriLink {
     double outer;      /* part of W at open ends, m: each end at the outline or at a slit adds the way along the tangent
                           from the crossing to it; 0 where both ends are corners, to W where both are open */
     double beyond;     /* excess of the same ways over W if the crossing is beside the border, m */
+    double square;     /* part of W up to ends where four regions meet, m */
     double lean;       /* tangent of the angle from the normal to the edge of the material, if one end is open; else 0 */
     double length;     /* l: the way from site i to site j through the border, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
@@ -81,7 +82,9 @@ typedef struct kiriCorner {
     int32_t count;      /* of its links: 3 or 4 */
     int32_t link[4];    /* into `links`, ascending; those beyond count are KIRI_NONE */
     int32_t unused;     /* always 0: fills the padding */
-    kiriVec2 weight[4]; /* p_k = N^-1 s_k, N = sum of s_k s_k^T over its links, s_k their spans; 1/m */
+    /* p_k = w_k / l_k N^-1 s_k, 1/m, N = sum of w_k / l_k s_k s_k^T over its links: s_k their spans, w_k their widths from
+       the crossing to the corner. If no w_k is 0, the traces of even states load the borders as the plate does. */
+    kiriVec2 weight[4];
     double area;        /* m^2, of the triangle or quadrangle of its sites */
 } kiriCorner;
 

@@ -13,9 +13,17 @@
 #define SHEAR_BEAM (5.0 / 6.0)
 
 /* Missing energy of plane bending. Bent in its plane, a sheet stretches on one side of a corner and contracts on the
-   other. The trace sees nothing of it where four square regions meet, and most of it where three meet. The missing part
-   is 3 nu / (1 + nu) of the regions' own energy in the first case, less than 1 in the second. */
-#define PLANE_INNER 1.5
+   other. The trace sees this where three regions meet, and not where four meet: there 3 nu / (1 + nu) of the regions' own
+   energy are missing, and half of it suits narrow strips better. */
+#define PLANE_SQUARE 1.5
+
+/* Elongation of a link at which half of the terms of HoldTilt count, in h^2 / l: without them, tension buckles crooked
+   layouts from there on. */
+#define TAUT_ONSET 5.0
+/* Part of the tension's lever on twist that HoldTilt takes away: with all of it, crooked layouts of thin sheets lock. */
+#define TWIST_SHARE 0.25
+/* Angle of frames to the line of tension beyond which it holds them no more. With 0.03, tears go other ways. */
+#define MOST_TILT 0.01
 
 /* Factors of the stiffness of a normal gap against a strip clamped at both ends: between regions with neighbours on
    both sides, and along an edge. Inside, 1.6 is the mean over directions for a plate under uniform shear, and 3 is
@@ -231,6 +239,33 @@ static void MeasureStretch(double lever, double bump, const MeanAxes* axes, cons
         double byFlat = kiriVec3_Dot(change.gap, axes->d) - (byY + byZ) * kiriVec3_Dot(b->gap, axes->d);
         AddOpening(axes, 2.0 / OFFSET_FOLD * fold * flat * flat * byFlat, row);
     }
+}
+
+/* Adds share e^2 to a strain, e an offset of a link: the force of the strain then resists the offset. The addition stays
+   below the strain itself, and below share most^2, so that frames which are far off turn freely. */
+static void HoldOffset(double share, double most, double onset, double e, const kiriStrainRow* byOffset, double* strain,
+                       kiriStrainRow* row)
+{
+    double size = fabs(*strain), sign = *strain < 0.0 ? -1.0 : 1.0, near = 1.0 / (1.0 + e * e / (most * most));
+    double w = share * e * e * near, per = 1.0 / (size + w + onset);
+    *strain += sign * size * w * per;
+    if (row != NULL) {
+        ScaleRow(row, 1.0 + w * (w + onset) * per * per);
+        AddRow(row, 2.0 * sign * share * e * near * near * size * (size + onset) * per * per, byOffset);
+    }
+}
+
+/* Lets tension hold frames that tilt (kiri_strain.h). `aside`: the part along tau of the way from m to q. */
+static void HoldTilt(double aside, double lever, double onset, double* strain, kiriStrainRow* rows)
+{
+#define TILT_ROW(s) (rows != NULL ? &rows[s] : NULL)
+    if (strain[KIRI_STRETCH] > 0.0) {
+        HoldOffset(TWIST_SHARE * aside * aside / lever, MOST_TILT, onset, strain[KIRI_TWIST], TILT_ROW(KIRI_TWIST),
+                   &strain[KIRI_STRETCH], TILT_ROW(KIRI_STRETCH));
+    }
+    HoldOffset(1.0 / lever, MOST_TILT * lever, onset, strain[KIRI_NORMAL_GAP], TILT_ROW(KIRI_NORMAL_GAP),
+               &strain[KIRI_SHEAR], TILT_ROW(KIRI_SHEAR));
+#undef TILT_ROW
 }
 
 /* Weight of strains along the mean axes, and its derivative by `open`. If the directors are nearly opposite, a small
@@ -505,7 +540,8 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
     EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
-    MeasureStretch(LeverOf(link, frames), BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
+    double lever = LeverOf(link, frames);
+    MeasureStretch(lever, BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
                    rows != NULL ? &rows[KIRI_STRETCH] : NULL);
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
@@ -524,6 +560,8 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
         WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
         WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
+    double onset = TAUT_ONSET * material->thickness * material->thickness / link->length;
+    HoldTilt(kiriVec2_Dot(kiriVec2_Sub(middle, link->crossing), link->tangent), lever, onset, strain, rows);
     TakeAngle(&axes, strain, rows);
     TakeArc(link, frames, strain, rows);
     if (link->lean != 0.0) {
@@ -612,7 +650,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_STRETCH] = membrane * (inner / (1.0 + nu) + outer + nu / (1.0 + nu) * beyond);
     stiffness[KIRI_SHEAR] = membrane * (inner + 0.5 * SHEAR_BEAM * outer) / (1.0 + nu);
     stiffness[KIRI_PLANE_BENDING] =
-        membrane * link->moment * (1.0 + PLANE_INNER * nu / (1.0 + nu) * inner / link->width);
+        membrane * link->moment * (1.0 + PLANE_SQUARE * nu / (1.0 + nu) * link->square / link->width);
     stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer + nu * beyond);
     stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer + beyond);
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * NormalGapWidth(link, nu) / (l * l);

@@ -12,12 +12,13 @@ KIRI_C_BEGIN
 
 /* Notation: gap(p) = x_j(p) - x_i(p); n, tau, d are the mean axes of the two frames, orthonormal;
    D = E h^3 / (12 (1 - nu^2)), M = E h / l, B = D / l; W = Wi + Wo, where Wo is the part of the width at open ends of
-   the border (kiriLink.outer). Every energy is 1/2 stiffness strain^2.
+   the border (kiriLink.outer); Ws is the part towards ends where four regions meet. Every energy is 1/2 stiffness
+   strain^2.
 
    strain         value                                               stiffness
    stretch        sqrt((c + gap(b) . n)^2 + 2 Y) - c - a.n            M (Wi / (1 + nu) + Wo)
    shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
-   plane bending  -2 sin of half the turn about d                     M I (1 + 3/2 nu / (1 + nu) Wi / W)
+   plane bending  -2 sin of half the turn about d                     M I (1 + 3/2 nu / (1 + nu) Ws / W)
    bending        w . e, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
    twist          w . (d x e)                                         B (1 - nu) (Wi + 2 Wo)
    normal gap     gap(m) . d                                          12 B W' / l^2, W' of NormalGapWidth
@@ -61,6 +62,14 @@ KIRI_C_BEGIN
    much as it adds to c / 2. So frames that have passed through each other are pushed back, the strain grows with
    gap(b) . n everywhere, and it has no kink in which a motion could get stuck. If g < c, Y has 1/2 (1 - g / c) e gap(m) . d
    more, e up to a thousandth of l and of either sign, so a flat sheet that is pressed leaves its plane.
+
+   Under tension, frames of crooked layouts would still tilt, each pair to the side where that shortens a gap. If frames tilt
+   by u across a link and by v along it, beside a line that stays, the gap along tau changes by up to c u v / 2, of either
+   sign, which is less than c (u^2 + v^2) / 4. The link sees c u as gap(m) . d, links across it see v. So shear grows by
+   (gap(m) . d)^2 / c, with its own sign, four times as much. Where the line of tension passes m at the distance t along tau,
+   it also has a lever on the twist: stretch above zero grows by (t w . tau)^2 / (4 c). Both terms stay below the strain itself
+   and fade where that is below 5 h^2 / l, so offsets cost nothing without tension. They end where frames are more than a
+   hundredth of a radian off.
 
    A slack material (kiriMaterial.slack) loses stiffness where stretch is below zero: there the strain shrinks, by the
    square root of the remaining part of the stiffness. Strain and slope are continuous.

@@ -218,6 +218,7 @@ static double EnergyAfter(const kiriSheetData* sheet, int32_t k, const kiriVec2 
     link.span = kiriVec2_AddScaled(link.span, longer, link.normal);
     link.width *= growth;
     link.outer *= growth;
+    link.square *= growth;
     link.moment *= growth * growth * growth;
     link.centroid = kiriVec2_Add(link.centroid, middle);
     link.crossing = kiriVec2_Add(link.crossing, middle);
