@@ -89,35 +89,30 @@ static int32_t PartOfPiece(const kiriDetach* detach, int32_t piece)
     return detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
 }
 
-static int32_t PartOfFrame(const kiriDetach* detach, int32_t frame)
-{
-    KIRI_ASSERT_HAS(detach->sheet->frames, frame);
-    return PartOfPiece(detach, detach->sheet->layout.framePiece.data[frame]);
-}
-
 /* Returns the piece of item i of a kind if it leaves, else KIRI_NONE. */
 static int32_t PartOf(const kiriDetach* detach, int32_t kind, int32_t i)
 {
     const kiriSheetData* sheet = detach->sheet;
+    const int32_t *framePart = detach->framePart.data, *vertexPart = detach->vertexPart.data;
     switch (kind) {
     case KIRI_LISTED_TRIANGLES:
-        return detach->vertexPart.data[sheet->mesh.triangles.data[i].vertex[0]];
+        return vertexPart[sheet->mesh.triangles.data[i].vertex[0]];
     case KIRI_LISTED_FRAMES:
-        return PartOfFrame(detach, i);
+        return framePart[i];
     case KIRI_LISTED_POINTS:
-        return PartOfFrame(detach, sheet->points.data[i].frame);
+        return framePart[sheet->points.data[i].frame];
     case KIRI_LISTED_LINKS:
-        return PartOfFrame(detach, sheet->links.links.data[i].i);
+        return framePart[sheet->links.links.data[i].i];
     case KIRI_LISTED_FADES:
-        return detach->vertexPart.data[sheet->seen.fades.fading.data[i].sample];
+        return vertexPart[sheet->seen.fades.fading.data[i].sample];
     case KIRI_LISTED_POINT_FADES:
-        return PartOfFrame(detach, sheet->points.data[sheet->seen.pointFades.fading.data[i].sample].frame);
+        return framePart[sheet->points.data[sheet->seen.pointFades.fading.data[i].sample].frame];
     case KIRI_LISTED_LAST:
         return PartOfPiece(detach, kiriTouch_Piece(sheet, &sheet->touches.last.touches.data[i]));
     case KIRI_LISTED_SLEPT:
         return PartOfPiece(detach, kiriTouch_Piece(sheet, &sheet->touches.slept.touches.data[i]));
     default:
-        return detach->vertexPart.data[i];
+        return vertexPart[i];
     }
 }
 
@@ -143,10 +138,16 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     KIRI_ASSERT(rest->pieces.count == sheet->layout.pieces.count);
     detach->area = AreaOfAll(sheet);
-    bool ok = kiriArray_Resize(memory, &detach->vertexPart, sheet->mesh.vertices.count) &&
+    bool ok = kiriArray_Resize(memory, &detach->framePart, sheet->frames.count) &&
+              kiriArray_Resize(memory, &detach->vertexPart, sheet->mesh.vertices.count) &&
               (!makesParts || InitSubset(part, sheet, memory)) && kiriKeep_Init(&rest->pins, memory, sheet->pins.count);
+    KIRI_EACH_INDEX_WHILE(ok, f, sheet->frames) {
+        detach->framePart.data[f] = PartOfPiece(detach, sheet->layout.framePiece.data[f]);
+    }
     KIRI_EACH_INDEX_WHILE(ok, v, sheet->mesh.vertices) {
-        detach->vertexPart.data[v] = PartOfPiece(detach, kiriPiece_OfVertex(sheet, v));
+        const kiriSpan* span = &sheet->vertexSkin.spans.data[v];
+        KIRI_ASSERT(span->count > 0);
+        detach->vertexPart.data[v] = detach->framePart.data[sheet->vertexSkin.weights.data[span->first].frame];
     }
     KIRI_TIMES_WHILE(ok, k, KIRI_LISTED_COUNT) {
         int32_t count = kinds[k].count;
@@ -371,6 +372,9 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     KIRI_EACH_INDEX_WHILE(ok, i, from->pins) {
         int32_t frame = kiriSubset_FrameOfPin(part, i);
         ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
+    }
+    KIRI_EACH_WHILE(ok, const int32_t, vertex, vertices.items) { /* to weigh them gives the same bits */
+        ok = kiriSkin_StageCopy(&to->vertexSkin, to->memory, &from->vertexSkin, *vertex, &part->frames);
     }
     if (!ok || !CopyContacts(detach, piece, to) || !kiriPipeline_Make(to, KIRI_READY) ||
         !CopyFades(&fades, &from->seen.fades, &part->vertices, &to->seen.fades, to->memory) ||

@@ -34,7 +34,7 @@ typedef struct kiriDetach {
     kiriMemory memory;                    /* of all arrays below, except for `shown` and `points` */
     kiriSubset rest;                      /* the pieces that stay; the caller sets rest.pieces */
     kiriSubset part;                      /* the piece that is copied; empty between two parts */
-    kiriIndices vertexPart;               /* of each vertex: its piece if it leaves, else KIRI_NONE */
+    kiriIndices framePart, vertexPart;    /* of each frame, vertex: its piece if it leaves, else KIRI_NONE */
     kiriPieceItems of[KIRI_LISTED_COUNT]; /* items of the pieces that leave */
     double area;                          /* m^2 of all pieces */
     kiriIndices cells, squares;           /* cells that leave, and their squares, each once */

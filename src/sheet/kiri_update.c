@@ -350,7 +350,10 @@ static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
 static kiriProgress WeighVertices(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriSampleSource source = VertexSource(sheet);
-    return kiriRefresh_Stage(&sheet->update->samples.refresh, &source, samples);
+    kiriRefresh* refresh = &sheet->update->samples.refresh;
+    bool areCopied = refresh->square == 0 && refresh->sample == KIRI_NONE &&
+                     sheet->vertexSkin.staged.count == sheet->mesh.vertices.count; /* see kiri_detach.c */
+    return areCopied ? KIRI_DONE : kiriRefresh_Stage(refresh, &source, samples);
 }
 
 static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)

@@ -78,6 +78,24 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     return ok;
 }
 
+bool kiriSkin_StageCopy(kiriSkin* skin, kiriMemory* memory, const kiriSkin* from, int32_t was, const kiriKeep* frames)
+{
+    const kiriSpan span = from->spans.data[was];
+    kiriReweighed staged = { skin->staged.count, { 0, 0 } };
+    if (!kiriArray_ReserveMore(memory, &skin->staged, 1) ||
+        !ResizeSampleWeights(skin, memory, &staged.span, span.count)) {
+        return false;
+    }
+    KIRI_TIMES(k, span.count) {
+        kiriSampleWeight weight = from->weights.data[span.first + k];
+        weight.frame = kiriKeep_To(frames, weight.frame);
+        KIRI_ASSERT(weight.frame != KIRI_NONE);
+        skin->weights.data[staged.span.first + k] = weight;
+    }
+    KIRI_NEXT(skin->staged) = staged;
+    return true;
+}
+
 void kiriSkin_Commit(kiriSkin* skin)
 {
     KIRI_EACH(const kiriReweighed, staged, skin->staged) {

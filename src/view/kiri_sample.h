@@ -47,6 +47,9 @@ typedef struct kiriMotion {
 bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid, int32_t sample,
                     int32_t cell, kiriVec2 at);
 
+/* Stages the weights of a sample of another skin for the next sample. Returns false on out of memory. */
+bool kiriSkin_StageCopy(kiriSkin* skin, kiriMemory* memory, const kiriSkin* from, int32_t was, const kiriKeep* frames);
+
 /* Commit gives the staged weights to the samples; Drop drops them. Both cannot fail. */
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);

@@ -451,7 +451,10 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->isWritten = surface->isSteady = false;
     kiriPatches_Forget(&surface->patches);
     surface->turns.count = surface->triangleCount / 2 + surface->triangleCount % 2;
-    kiriSurface_Derive(surface, mesh, surface->vertexCount, 0);
+    KIRI_TIMES(t, triangles->first) { /* their vertices have other indices, their turns stay */
+        WriteTriangle(surface, mesh, t);
+    }
+    kiriSurface_Derive(surface, mesh, surface->vertexCount, triangles->first);
 }
 
 /* ---- Copies ------------------------------------------------------------------------------------------------------ */
