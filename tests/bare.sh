@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs the first commands of the README in a bare Debian: a root with make and nothing else, which apt-get fills.
 #
-#   tests/bare.sh [SUITE [ROOT]]    as root, with mmdebstrap; SUITE bookworm or trixie. It takes ten minutes and 1.5 GB. A ROOT stays
+#   tests/bare.sh [SUITE [ROOT]]    as root, with mmdebstrap; SUITE bookworm or trixie. It takes 20 minutes and 3 GB. A ROOT stays
 set -eu
 cd "$(dirname "$0")/.."
 suite=${1:-bookworm}
@@ -26,8 +26,10 @@ grep -q 'pictures and contact_sheet.png in build/pictures' "$root/log"
 in_root 'make -C /kiri example'
 grep -q '^2 pieces$' "$root/log"
 in_root 'make -C /kiri play ARGS="--headless --ticks 10 --pictures build/played" && test -s /kiri/build/played/frame_0001.png'
+in_root 'make -C /kiri web && test -s /kiri/build/web/main.js' # as web-serve does
+in_root 'make -C /kiri packages-love && command -v love'
 in_root 'make -C /kiri install && apt-get -y --no-install-recommends install pkg-config'
 sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' > "$root/example.c"
 in_root 'cd / && cc example.c $(pkg-config --cflags --libs kiri) -o example && ./example'
 grep -q '^2 pieces$' "$root/log"
-echo "bare $suite: run, example, play, install and the program of the README work"
+echo "bare $suite: run, example, play, web, love, install and the program of the README work"
