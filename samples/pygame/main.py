@@ -17,6 +17,7 @@ TICK = 1 / 60
 SCALE = 2  # pixels drawn for one that is seen, along each side
 BUDGET = {"cells": 32000, "samples": 4000}  # of work on cuts in a tick: about 2 ms
 SKY, FLOOR, INK = (243, 234, 217), (206, 189, 163), (52, 46, 60)
+SHADOW = (150, 146, 150)
 STRIPES = ((214, 84, 61), (240, 196, 118))
 LIGHT = (0.36, -0.80, 0.48)
 
@@ -43,7 +44,7 @@ class Curtain:
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_PLANE, friction=0.8)
         self.world.create_obstacle(kiri.KIRI_OBSTACLE_SPHERE, radius=0.22, position=(0.15, 0.24, 0.45))
         setup = kiri.setup(kiri.SetupPreset.CURTAIN, 1.5, 1.0)
-        setup.material.thickness, setup.material.density = 0.002, 150.0  # felt: what falls lies flat, and is no heap
+        setup.material.thickness, setup.material.density, setup.material.detail = 0.002, 150.0, 0  # felt: what falls lies flat, and is no heap
         setup.position, setup.axisV = (-0.75, 0.0, 0.18), (0, 0, 1)
         setup.collisionPoints, setup.touchesSheets = 400, 1
         self.sheet = self.world.create_rectangle(1.5, 1.0, **vars(setup))
@@ -72,7 +73,7 @@ class Curtain:
 
 def color_of(rest, normal):
     """Stripes by where the material is, so that they stay on their pieces, with light from both sides."""
-    stripe = STRIPES[int(16 * rest[0] / 1.5) % 2]
+    stripe = STRIPES[int(20 * rest[0] / 1.5) % 2]
     light = 0.45 + 0.55 * abs(sum(a * b for a, b in zip(normal, LIGHT)))
     return tuple(int(min(255, light * part)) for part in stripe)
 
@@ -135,6 +136,17 @@ def make_ground(camera):
     return ground
 
 
+def draw_shadow(canvas, corners_of_all):
+    """On a surface of a few pixels, which soften when they are spread."""
+    few = pygame.Surface((WIDTH // 2, HEIGHT // 2))
+    few.fill("white")
+    for corners in corners_of_all:
+        pygame.draw.polygon(few, SHADOW, [(x / SCALE / 2, y / SCALE / 2) for x, y in corners])
+    for part in (4, 8, 4, 1 / SCALE):
+        few = pygame.transform.smoothscale(few, (int(WIDTH / part), int(HEIGHT / part)))
+    canvas.blit(few, (0, 0), special_flags=pygame.BLEND_MULT)
+
+
 def draw(screen, curtain, camera, looks, font):
     if "canvas" not in looks:
         looks.update(canvas=pygame.Surface((SCALE * WIDTH, SCALE * HEIGHT)), ground=make_ground(camera))
@@ -143,9 +155,7 @@ def draw(screen, curtain, camera, looks, font):
     pieces = [piece for sheet in curtain.sheets for piece in pieces_of(sheet, camera, looks.setdefault(sheet.id, {}))]
     pieces.sort(key=lambda piece: -piece[0])
     drawn = [triangle for _, triangles in pieces for triangle in triangles]
-    shadow = tuple(int(0.66 * part) for part in FLOOR)
-    for _, _, corners in drawn:
-        pygame.draw.polygon(canvas, shadow, corners)
+    draw_shadow(canvas, (corners for _, _, corners in drawn))
     draw_ball(canvas, camera, 0.21, (0.15, 0.24, 0.45))
     for color, corners, _ in drawn:
         pygame.draw.polygon(canvas, color, corners)
