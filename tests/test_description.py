@@ -134,6 +134,11 @@ KIRI_API void kiriThree(void);
         finally:
             del describe.PARAMETERS["kiriNone.of"]
 
+    def test_that_tags_mark_flags(self):
+        struct = next(struct for struct in description["structs"] if struct["name"] == "kiriSheetDef")
+        self.assertEqual([field["name"] for field in struct["fields"] if field.get("flag")],
+                         ["touchesSheets", "selfContact", "planar", "normals"])
+
     def test_that_tags_mark_the_pointers_that_calls_take_as_null(self):
         """every_call.h has null, or `spare`, for these alone: test_api.c makes each other pointer null, and is refused."""
         calls = repository / "tests/every_call.h"

@@ -38,7 +38,7 @@ RETURNS = {"kiriGetResultName": "forever", "kiriGetResultText": "forever", "kiri
 
 # Tags in comments: an id that may be 0, a number that is 0 or 1, a result, a pointer that may be null, an array with so many
 # numbers for each of its rows, and a parameter that may be left out: null or 0 in C.
-NONE, FLAG, PENDS, NULL = r"\b0: none\b", r"1: ", r"\bKIRI_PENDING: ", r"\b[Nn]ull\b"
+NONE, FLAG, PENDS, NULL = r"\b0: none\b", r"(?:^|\b{} )1: ", r"\bKIRI_PENDING: ", r"\b[Nn]ull\b"
 OPTIONAL = r"(?<![*\w]){}`?(?: (?:and|or) \w+)? (?:null|0): "
 ARRAY = r"\b(\d+) (?:floats (?:\(u, v\) )?)?an? (\w+)"
 
@@ -157,7 +157,7 @@ class Describer:
             described.update(self._rows(name, field, fields))
         if form in ("pointer", "callback"):
             described["nullable"] = form == "callback" or field["type"] == "void" or bool(re.search(NULL, field["doc"]))
-        if re.match(FLAG, field["doc"]):
+        if form == "number" and re.search(FLAG.format(field["name"]), field["doc"]):
             described["flag"] = True
         if form == "id" and re.search(NONE, field["doc"]):
             described["none"] = True

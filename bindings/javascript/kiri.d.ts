@@ -549,10 +549,10 @@ export class SheetDef {
     groups: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    touchesSheets: number;
+    touchesSheets: boolean;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    selfContact: number;
+    selfContact: boolean;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
@@ -629,10 +629,10 @@ export interface SheetDefGiven {
     groups?: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    touchesSheets?: number;
+    touchesSheets?: boolean | number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    selfContact?: number;
+    selfContact?: boolean | number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
@@ -673,10 +673,10 @@ export class SheetSettings {
     groups: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    touchesSheets: number;
+    touchesSheets: boolean;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    selfContact: number;
+    selfContact: boolean;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
     /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
@@ -706,10 +706,10 @@ export interface SheetSettingsGiven {
     groups?: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    touchesSheets?: number;
+    touchesSheets?: boolean | number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
-    selfContact?: number;
+    selfContact?: boolean | number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
     /** m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */

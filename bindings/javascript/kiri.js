@@ -481,8 +481,8 @@ export class SheetDef {
     friction = 0;
     contactThickness = 0;
     groups = 0;
-    touchesSheets = 0;
-    selfContact = 0;
+    touchesSheets = false;
+    selfContact = false;
     collisionPoints = 0;
     iterations = 0;
     sleepSpeed = 0;
@@ -520,8 +520,8 @@ function readSheetDef(o, at, world) {
     o.friction = F32[(at + 152) >> 2];
     o.contactThickness = F32[(at + 156) >> 2];
     o.groups = U32[(at + 160) >> 2];
-    o.touchesSheets = I32[(at + 164) >> 2];
-    o.selfContact = I32[(at + 168) >> 2];
+    o.touchesSheets = I32[(at + 164) >> 2] !== 0;
+    o.selfContact = I32[(at + 168) >> 2] !== 0;
     o.collisionPoints = I32[(at + 172) >> 2];
     o.iterations = I32[(at + 176) >> 2];
     o.sleepSpeed = F32[(at + 180) >> 2];
@@ -658,8 +658,8 @@ export class SheetSettings {
     friction = 0;
     contactThickness = 0;
     groups = 0;
-    touchesSheets = 0;
-    selfContact = 0;
+    touchesSheets = false;
+    selfContact = false;
     iterations = 0;
     sleepSpeed = 0;
     skinning = 0;
@@ -676,8 +676,8 @@ function readSheetSettings(o, at, world) {
     o.friction = F32[(at + 52) >> 2];
     o.contactThickness = F32[(at + 56) >> 2];
     o.groups = U32[(at + 60) >> 2];
-    o.touchesSheets = I32[(at + 64) >> 2];
-    o.selfContact = I32[(at + 68) >> 2];
+    o.touchesSheets = I32[(at + 64) >> 2] !== 0;
+    o.selfContact = I32[(at + 68) >> 2] !== 0;
     o.iterations = I32[(at + 72) >> 2];
     o.sleepSpeed = F32[(at + 76) >> 2];
     o.skinning = I32[(at + 80) >> 2];

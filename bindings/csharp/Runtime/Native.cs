@@ -809,11 +809,11 @@ namespace Kiri
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
         /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
         /// Default 0.</summary>
-        public int TouchesSheets;
+        public Flag TouchesSheets;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
         /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
         /// Default 0.</summary>
-        public int SelfContact;
+        public Flag SelfContact;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
@@ -866,11 +866,11 @@ namespace Kiri
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
         /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
         /// Default 0.</summary>
-        public int TouchesSheets;
+        public Flag TouchesSheets;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
         /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
         /// Default 0.</summary>
-        public int SelfContact;
+        public Flag SelfContact;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
         /// <summary>m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never</summary>

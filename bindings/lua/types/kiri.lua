@@ -214,8 +214,8 @@ kiri.DRAW_ALL = 2047
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 ---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
----@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
----@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field collisionPoints? integer # spread evenly over the sheet, at least one in every piece; default 0: none
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
@@ -236,8 +236,8 @@ kiri.DRAW_ALL = 2047
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 ---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
----@field touchesSheets? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
----@field selfContact? integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH

@@ -980,11 +980,11 @@ pub struct SheetDef<'a> {
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
     /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
     /// Manual: rules and limits (contact). Default 0.
-    pub touches_sheets: i32,
+    pub touches_sheets: bool,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
     /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
     /// Manual: rules and limits (contact). Default 0.
-    pub self_contact: i32,
+    pub self_contact: bool,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collision_points: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
@@ -1047,8 +1047,8 @@ impl<'a> SheetDef<'a> {
             friction: raw.friction,
             contact_thickness: raw.contactThickness,
             groups: raw.groups,
-            touches_sheets: raw.touchesSheets,
-            self_contact: raw.selfContact,
+            touches_sheets: raw.touchesSheets != 0,
+            self_contact: raw.selfContact != 0,
             collision_points: raw.collisionPoints,
             iterations: raw.iterations,
             sleep_speed: raw.sleepSpeed,
@@ -1090,8 +1090,8 @@ impl<'a> SheetDef<'a> {
         raw.friction = self.friction;
         raw.contactThickness = self.contact_thickness;
         raw.groups = self.groups;
-        raw.touchesSheets = self.touches_sheets;
-        raw.selfContact = self.self_contact;
+        raw.touchesSheets = i32::from(self.touches_sheets);
+        raw.selfContact = i32::from(self.self_contact);
         raw.collisionPoints = self.collision_points;
         raw.iterations = self.iterations;
         raw.sleepSpeed = self.sleep_speed;
@@ -1126,11 +1126,11 @@ pub struct SheetSettings {
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
     /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
     /// Manual: rules and limits (contact). Default 0.
-    pub touches_sheets: i32,
+    pub touches_sheets: bool,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
     /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
     /// Manual: rules and limits (contact). Default 0.
-    pub self_contact: i32,
+    pub self_contact: bool,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
@@ -1156,8 +1156,8 @@ impl SheetSettings {
             friction: raw.friction,
             contact_thickness: raw.contactThickness,
             groups: raw.groups,
-            touches_sheets: raw.touchesSheets,
-            self_contact: raw.selfContact,
+            touches_sheets: raw.touchesSheets != 0,
+            self_contact: raw.selfContact != 0,
             iterations: raw.iterations,
             sleep_speed: raw.sleepSpeed,
             skinning: Skinning::known(raw.skinning),
@@ -1176,8 +1176,8 @@ impl SheetSettings {
             friction: self.friction,
             contactThickness: self.contact_thickness,
             groups: self.groups,
-            touchesSheets: self.touches_sheets,
-            selfContact: self.self_contact,
+            touchesSheets: i32::from(self.touches_sheets),
+            selfContact: i32::from(self.self_contact),
             iterations: self.iterations,
             sleepSpeed: self.sleep_speed,
             skinning: self.skinning as i32,
