@@ -631,6 +631,7 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
 {
     double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_STITCH_MEMBERS], places[KIRI_STITCH_MEMBERS], different = 0;
+    bool isAgain[KIRI_STITCH_MEMBERS];
     KIRI_ASSERT(count <= KIRI_STITCH_MEMBERS);
     KIRI_TIMES(m, count) { /* a frame may carry both points */
         places[m] = 0;
@@ -638,18 +639,19 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
             places[m] += 1;
         }
         frames[places[m]] = members[m].frame;
+        isAgain[m] = places[m] < different;
         different = kiriMax(places[m] + 1, different);
     }
-    memset(J, 0, sizeof(double) * (size_t)(KIRI_POINT_ROWS * different * solver->size));
     KIRI_TIMES(m, count) {
         const kiriPose* pose = &solver->poses.data[members[m].frame];
         kiriVec2 off = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
         kiriVec3 local = ways != NULL ? ways[m] : kiriVec3_Make(off.x, off.y, 0.0);
         kiriVec3 arm = ways != NULL ? kiriMat3_Mul(pose->A, local) : kiriPose_Along(pose, off);
         KIRI_TIMES(e, KIRI_POINT_ROWS) {
-            DerivePoint(solver, system, members[m], local, arm, ways == NULL, at->axis[e], own);
-            KIRI_TIMES(n, solver->size) {
-                J[solver->size * (different * e + places[m]) + n] += own[n];
+            double* to = &J[solver->size * (different * e + places[m])];
+            DerivePoint(solver, system, members[m], local, arm, ways == NULL, at->axis[e], isAgain[m] ? own : to);
+            KIRI_TIMES_WHILE(isAgain[m], n, solver->size) {
+                to[n] += own[n];
             }
         }
     }

@@ -44,11 +44,14 @@ double kiriReach_Of(double speed, kiriVec3 gravity, double dt)
 int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
-    kiriSampleWeight most = skin->weights.data[span.first];
-    KIRI_FROM_TO(k, span.first + 1, span.first + span.count) {
-        most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
+    const kiriSampleWeight *weights = &skin->weights.data[span.first], *end = weights + span.count, *most = weights;
+    float value = weights->value;
+    for (const kiriSampleWeight* at = weights + 1; at < end; ++at) {
+        float other = at->value;
+        most = other > value ? at : most;
+        value = other > value ? other : value;
     }
-    return most.frame;
+    return most->frame;
 }
 
 /* ---- Choice ---- */
