@@ -363,6 +363,30 @@ TEST(PushSpeedIsKept)
     }
 }
 
+/* A hanging cloth that starts through a capsule, whichever part of it is below, comes out. */
+TEST(DeepSheetsComeOut)
+{
+    for (int k = 0; k < 3; ++k) {
+        START_HOST(host);
+        kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
+        def.radius = 0.15f;
+        def.height = 0.3f;
+        memcpy(def.position, (float[3]){ 0.3f, 0.3f, -0.05f * (float)k - 0.01f }, sizeof(def.position));
+        Add(&host, &def);
+        kiriSheetDef cloth = SheetOf(32, 16);
+        kiriSheet sheet = Host_AddRectangle(&host, &cloth, 0.6f, 0.6f, 24, 24);
+        Host_Pin(&host, sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+        Host_Pin(&host, sheet, 0.0f, 0.6f, 0.0f, 0.6f, 0.0f);
+        Ticks(&host, 120);
+        kiriMesh mesh = World_Mesh(host.world, sheet);
+        for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+            const float* x = &mesh.positions[3 * v];
+            float a = x[0] - def.position[0], b = x[1] - def.position[1], c = fabsf(x[2] - def.position[2]) - 0.15f;
+            assert_true(sqrtf(a * a + b * b + (c > 0.0f ? c * c : 0.0f)) > 0.147f);
+        }
+    }
+}
+
 /* Whatever takes a box from below a plate that sleeps on it wakes the plate; what happens far away does not. */
 TEST(SleepersWake)
 {

@@ -15,6 +15,12 @@
    So a resting point that lifts a little keeps its force. */
 #define NEARBY 0.5
 
+/* A piece that is deeper than DEEP, of the side of a grid square, leaves an obstacle along its own normals, if the way out
+   is shorter than FARTHER times the depth. */
+#define DEEP 0.5
+#define FARTHER 4.0
+#define LONGEST_WAY 1e3 /* m: no way out is longer */
+
 /* Key bit of round sides: the item is a triangle, not a point of an edge. */
 #define ROUND_ITEM (UINT32_C(1) << 31)
 
@@ -62,6 +68,39 @@ static bool MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, 
     touch->felt = -1.0;
     touch->point = KIRI_NONE;
     return true;
+}
+
+/* Returns the normal of the sheet at a vertex, local to the obstacle. */
+static kiriVec3 NormalAt(const kiriMeeting* meeting, int32_t vertex)
+{
+    int32_t frame = kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex);
+    return kiriVec3_Normalize(kiriObstacle_ToLocal(meeting->obstacle, meeting->sheet->frames.data[frame].A.d));
+}
+
+/* Returns the distance from a point inside to the surface along a unit direction, m. Moves back from a point outside. */
+static double WayOut(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 along)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    double beyond = kiriObstacleShape_Reach(shape, along) - kiriVec3_Dot(along, from) + 2.0 * meeting->gap;
+    if (beyond > LONGEST_WAY) {
+        return LONGEST_WAY;
+    }
+    kiriNearest nearest;
+    kiriVec3 outside = kiriVec3_AddScaled(from, beyond, along), back = kiriVec3_Scale(-beyond, along);
+    double share = kiriObstacleShape_Enter(shape, outside, back, meeting->gap, meeting->across, &nearest);
+    return beyond * (1.0 - share) - meeting->gap;
+}
+
+/* Turns the nearest place of a point inside to the place where it leaves along the normal of the sheet, if its piece
+   leaves so. */
+static void LeaveAlong(const kiriMeeting* meeting, int32_t vertex, kiriVec3 from, kiriNearest* nearest)
+{
+    int32_t piece = kiriPiece_OfVertex(meeting->sheet, vertex);
+    double side = meeting->isThinned ? 0.0 : meeting->search->ways.data[piece].side;
+    if (side != 0.0 && nearest->distance < 0.0) {
+        kiriVec3 along = kiriVec3_Scale(side, NormalAt(meeting, vertex));
+        *nearest = (kiriNearest){ -WayOut(meeting, from, along), along };
+    }
 }
 
 static kiriVec3 WayOf(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 velocity)
@@ -199,7 +238,9 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
     }
     kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
     if (nearest.distance < meeting->reach && !meeting->isThinned) {
-        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){ .vertex = vertex };
+        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){
+            .vertex = vertex, .height = nearest.distance
+        };
     } else if (nearest.distance < meeting->reach) {
         double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,
@@ -291,6 +332,7 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     if (share >= 1.0 && nearest.distance > meeting->near) {
         return false;
     }
+    LeaveAlong(meeting, vertex, from, &nearest);
     kiriVec3 there = kiriVec3_AddScaled(kiriVec3_AddScaled(from, share, way), -nearest.distance, nearest.normal);
     if (!MakePlane(meeting, kiriObstacle_ToWorld(obstacle, nearest.normal), kiriObstacle_PointToWorld(obstacle, there),
                    meeting->gap, touch)) {
@@ -301,10 +343,39 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     return true;
 }
 
+/* Chooses for each piece to which side it leaves. If it lies deep in the obstacle, the nearest places of its vertices are on
+   all sides: they would stretch it, or hold it there. So it leaves along its normals, by the shorter way. */
+static void ChooseSides(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    search->ways.count = meeting->sheet->layout.pieces.count;
+    KIRI_EACH(kiriWayOut, way, search->ways) {
+        KIRI_CLEAR(way);
+    }
+    KIRI_EACH_WHILE(!meeting->sheet->settings.mechanics.planar, const kiriNearVertex, chosen, search->chosen) {
+        if (chosen->height < 0.0) {
+            kiriWayOut* way = &search->ways.data[kiriPiece_OfVertex(meeting->sheet, chosen->vertex)];
+            kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, chosen->vertex);
+            kiriVec3 from = kiriObstacle_PointToLocal(meeting->obstacle, x), normal = NormalAt(meeting, chosen->vertex);
+            double front = WayOut(meeting, from, normal), back = WayOut(meeting, from, kiriVec3_Scale(-1.0, normal));
+            way->depth = kiriMax(-chosen->height, way->depth);
+            way->front = kiriMax(front, way->front);
+            way->back = kiriMax(back, way->back);
+        }
+    }
+    KIRI_EACH(kiriWayOut, way, search->ways) {
+        bool leaves = way->depth > DEEP * meeting->square && kiriMin(way->front, way->back) < FARTHER * way->depth;
+        way->side = !leaves ? 0.0 : way->front <= way->back ? 1.0 : -1.0;
+    }
+}
+
 static bool TouchVertices(const kiriMeeting* meeting)
 {
     bool ok = true;
     ChooseVertices(meeting);
+    if (!meeting->isThinned) {
+        ChooseSides(meeting);
+    }
     KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, meeting->search->chosen) {
         kiriTouch touch;
         if (TouchVertex(meeting, chosen->vertex, &touch)) {
@@ -375,6 +446,7 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     }
     kiriVec3 local = BlendOfThree(x, share);
     kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, local, meeting->across);
+    LeaveAlong(meeting, v[0], local, &nearest);
     kiriVec3 on = kiriObstacle_PointToWorld(obstacle, kiriVec3_AddScaled(local, -nearest.distance, nearest.normal));
     return TouchMixed(meeting, v, share, 3, kiriObstacle_PointToWorld(obstacle, local),
                       kiriObstacle_ToWorld(obstacle, nearest.normal), nearest.distance, meeting->near, on, meeting->gap,
@@ -761,6 +833,7 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
     if (!kiriArrays_Reserve(search->memory, triangles, &search->triangles, &search->crossed) ||
         !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
         !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
+        !kiriArray_Reserve(search->memory, &search->ways, sheet->layout.pieces.count) ||
         (oldMarks < vertices && !kiriArray_Resize(search->memory, &search->marks, vertices)) ||
         (oldHeads < patches && !kiriArray_Resize(search->memory, &search->heads, patches))) {
         return false;

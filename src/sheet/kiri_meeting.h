@@ -19,6 +19,13 @@ typedef struct kiriNearVertex {
     kiriVec3 normal;              /* local to the obstacle */
 } kiriNearVertex;
 
+/* How a piece leaves an obstacle in which it lies deep. */
+typedef struct kiriWayOut {
+    double depth;       /* m: of its deepest vertex */
+    double front, back; /* m: longest ways out of its vertices along the normals of the sheet, and against them */
+    double side;        /* 1: it leaves to the front, -1: to the back, 0: each vertex at its nearest place */
+} kiriWayOut;
+
 /* Scratch of a search, reused for each sheet and obstacle. */
 typedef struct kiriObstacleSearch {
     kiriMemory* memory;
@@ -31,6 +38,7 @@ typedef struct kiriObstacleSearch {
     uint32_t mark;              /* twice the number of this search */
     kiriIndices heads;          /* per patch: first entry of `chosen`, or KIRI_NONE */
     KIRI_ARRAY(kiriNearVertex) chosen;
+    KIRI_ARRAY(kiriWayOut) ways; /* of each piece */
 } kiriObstacleSearch;
 
 /* Updates the key of an obstacle touch after vertices and triangles were removed. Returns false if its item was. */
