@@ -253,7 +253,8 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
     int32_t* degree = MakeIndices(scratch, vertices, 0); /* of each point: half-edges that leave it */
     int32_t* first = MakeIndices(scratch, vertices, KIRI_NONE);
     int32_t* next = MakeIndices(scratch, halves, KIRI_NONE);
-    if (at == NULL || point == NULL || degree == NULL || first == NULL || next == NULL) {
+    int32_t* ends = MakeIndices(scratch, halves, KIRI_NONE); /* of a listed half-edge: its end that does not list it */
+    if (at == NULL || point == NULL || degree == NULL || first == NULL || next == NULL || ends == NULL) {
         return KIRI_ERROR_MEMORY;
     }
     KIRI_TIMES(v, vertices) {
@@ -268,13 +269,13 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
     }
     KIRI_TIMES(h, halves) {
         int32_t a = point[kiriMesh_Tail(mesh, h)], b = point[kiriMesh_Head(mesh, h)];
-        int32_t* list = &first[degree[a] < degree[b] || (degree[a] == degree[b] && a < b) ? a : b];
-        int32_t g = *list;
-        while (g != KIRI_NONE &&
-               (int64_t)point[kiriMesh_Tail(mesh, g)] + point[kiriMesh_Head(mesh, g)] != (int64_t)a + b) {
+        bool isAtA = degree[a] < degree[b] || (degree[a] == degree[b] && a < b);
+        int32_t *list = &first[isAtA ? a : b], end = isAtA ? b : a, g = *list;
+        while (g != KIRI_NONE && ends[g] != end) {
             g = next[g];
         }
         if (g == KIRI_NONE) {
+            ends[h] = end;
             next[h] = *list;
             *list = h;
             continue;
