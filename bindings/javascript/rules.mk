@@ -94,7 +94,7 @@ web: packages-web
 
 $(WEB_TOOLS)/installed: samples/web/package.json
 	@mkdir -p $(@D) && cp $< $(@D)
-	@npm install --prefix $(@D) --no-audit --no-fund --silent
+	@npm install --prefix $(@D) --ignore-scripts --no-audit --no-fund --silent
 	@touch $@
 
 # Drawings to cut, for the page.
@@ -152,7 +152,7 @@ babylon: packages-babylon
 
 $(BABYLON_TOOLS)/installed: samples/babylon/package.json
 	@mkdir -p $(@D) && cp $< $(@D)
-	@npm install --prefix $(@D) --no-audit --no-fund --silent
+	@npm install --prefix $(@D) --ignore-scripts --no-audit --no-fund --silent
 	@touch $@
 
 $(BABYLON)/main.js: $(wildcard samples/babylon/*) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed $(BABYLON_TOOLS)/installed
