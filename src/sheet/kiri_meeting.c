@@ -556,8 +556,8 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
     kiriIndices* crossed = &meeting->search->crossed;
     int32_t kept = 0;
     crossed->count = 0;
-    if (!kiriBounds_FindMoving(meeting->sheet->seen.bounds, surface, MeetsLine, point, 0, meeting->search->memory,
-                               crossed)) {
+    if (!kiriBounds_FindMoving(meeting->sheet->seen.bounds, surface, MeetsLine, point, false, 0,
+                               meeting->search->memory, crossed)) {
         return false;
     }
     KIRI_EACH(const int32_t, triangle, *crossed) {
@@ -930,8 +930,9 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
                             double speed, int32_t yield)
 {
     kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
+    bool isPlane = obstacle->shape.type == KIRI_OBSTACLE_PLANE; /* vertices alone touch planes: each is looked at */
     search->triangles.count = 0;
-    if (!kiriBounds_FindMoving(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
+    if (!kiriBounds_FindMoving(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, isPlane, VersionOf(sheet),
                                search->memory, &search->triangles)) {
         return false;
     }

@@ -327,6 +327,7 @@ typedef struct TriangleSearch {
     const kiriSurface* surface;
     kiriMeetsFn* meets;
     const void* space;
+    bool takesBoxes;
     kiriMemory* memory;
     kiriIndices* found;
 } TriangleSearch;
@@ -336,10 +337,12 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     const TriangleSearch* search = context;
     bool ok = true;
     KIRI_TIMES_WHILE(ok, i, count) {
-        kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
-        if (!IsHidden(search->surface, triangles[i]) && search->meets(search->space, &box)) {
-            ok = kiriArray_Push(search->memory, search->found, triangles[i]);
+        bool isFound = !IsHidden(search->surface, triangles[i]);
+        if (isFound && !search->takesBoxes) {
+            kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
+            isFound = search->meets(search->space, &box);
         }
+        ok = !isFound || kiriArray_Push(search->memory, search->found, triangles[i]);
     }
     return ok;
 }
@@ -348,7 +351,7 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
                      kiriMemory* memory, kiriIndices* found)
 {
     int32_t before = found->count;
-    bool ok = kiriBounds_FindMoving(bounds, surface, meets, context, 0, memory, found);
+    bool ok = kiriBounds_FindMoving(bounds, surface, meets, context, false, 0, memory, found);
     if (ok && found->count > before) {
         kiriSort(found->data + before, found->count - before, NULL, NULL);
     }
@@ -356,10 +359,11 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
 }
 
 bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
-                           const void* context, int64_t version, kiriMemory* memory, kiriIndices* found)
+                           const void* context, bool takesBoxes, int64_t version, kiriMemory* memory,
+                           kiriIndices* found)
 {
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, meets, context, memory, found };
+    TriangleSearch search = { surface, meets, context, takesBoxes, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }

@@ -119,10 +119,11 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);
 
-/* Appends the same triangles in no order. Leaves out sleeping ones if `version` is the version of the movers in the last
-   kiriBounds_Keep; 0: leaves out none. */
+/* Appends the same triangles in no order; with takesBoxes also others of boxes that meet the space. Leaves out sleeping
+   ones if `version` is the version of the movers in the last kiriBounds_Keep; 0: leaves out none. */
 bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
-                           const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
+                           const void* context, bool takesBoxes, int64_t version, kiriMemory* memory,
+                           kiriIndices* found);
 
 /* Finds the first triangle that the ray meets, up to maxDistance (m) along its direction, a unit vector; of two at the
    same distance the higher index. hit->triangle is KIRI_NONE if there is none. Tests all triangles if the bounds do not
