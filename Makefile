@@ -4,7 +4,7 @@
 #   make box2d    cuts a strip that lies on bodies of Box2D
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make view     shows a recording or a save in a window; FILE=error.kiri
-#   make test     builds and runs all tests
+#   make test     builds and runs all tests; test-all: installs Mono, Godot, Xvfb and LuaJIT before, for all bindings
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make check    compares figures of the sources with their limits, which only get stricter; includes, fields; no build
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
@@ -71,6 +71,9 @@ NEEDS_portable := $(NEEDS_lib)
 NEEDS_example := $(NEEDS_lib)
 # Without these, tests of bindings are left out, with a line that says so.
 WANTS_test := python3-cffi cmake pkg-config $(WANTS_play)
+# Large ones; each language's rules add to them.
+NEEDS_test-all = $(NEEDS_test)
+WANTS_test-all := $(WANTS_test)
 WANTS_gallery := $(WANTS_play)
 
 BUILD := build/$(config)
@@ -163,7 +166,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d jolt play view python bindings described builds exported renderers lib single example bench accuracy trade contact extremes gallery guide deps
-.PHONY: unrun test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
+.PHONY: unrun test test-all all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -177,7 +180,7 @@ packages-%:
 	@$(PACKAGES) --install 'make $*' $(NEEDS_$*) -- $(WANTS_$*)
 
 deps:
-	@$(PACKAGES) --install 'make deps' gcc g++ $(NEEDS_test) $(WANTS_test)
+	@$(PACKAGES) --install 'make deps' gcc g++ $(NEEDS_test) $(WANTS_test-all)
 
 # Submakes, so that nothing is compiled before the packages are there.
 run: packages-run
@@ -211,6 +214,9 @@ test: packages-test
 	grep ' FAILED$$' $(BUILD)/test.log | sed 's/^== /failed: /; s/ FAILED$$//'; \
 	echo "$$(ls $(BUILD)/passed | wc -l) of $(words $(ALL_RUNS)) programs passed, $$(cat $(BUILD)/passed/* | awk '{ n += $$1 } END { print n + 0 }') tests ($(config))"; \
 	rm -rf $(BUILD)/passed; exit $$(cat $(BUILD)/status)
+
+test-all: packages-test-all
+	@$(MAKE) --no-print-directory test
 
 fuzz: packages-fuzz
 	@$(MAKE) --no-print-directory config=fuzz CC=clang CXX=clang++ build/fuzz/tests/fuzz_$(FUZZ)

@@ -1,7 +1,7 @@
 # make csharp tests the binding with Mono; csharp-cost says what calls cost; package-csharp makes packages of Unity and NuGet.
 
 LANGUAGE_CHECKS += csharp
-WANTS_test += mono-mcs mono-runtime
+WANTS_test-all += mono-mcs mono-runtime
 
 .PHONY: csharp csharp-tests csharp-cost package-csharp
 

@@ -2,7 +2,7 @@
 # pictures; godot-play and godot4-play open the projects; package-godot makes addons; deps-godot4 gets Godot 4 of Debian sid.
 
 LANGUAGE_CHECKS += godot
-WANTS_test += godot3 xvfb xauth
+WANTS_test-all += godot3 xvfb xauth
 
 .PHONY: godot godot-test godot-play godot4-play bench-godot package-godot deps-godot4
 

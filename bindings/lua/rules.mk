@@ -1,7 +1,7 @@
 # The binding for LuaJIT. `make lua` tests it; `make package-lua` makes a rock of it, and tests that.
 
 LANGUAGE_CHECKS += lua
-WANTS_test += luajit
+WANTS_test-all += luajit
 LUAJIT ?= luajit
 
 .PHONY: lua package-lua bench-lua
