@@ -366,6 +366,9 @@ static bool Check(SceneReplay* replay, Scene* scene)
     bool isFine = true;
     while (result == KIRI_PENDING && isFine && (!replay->isSave || ticks < SCENE_SAVE_TICKS)) {
         result = SceneReplay_Tick(replay, scene);
+        if (result < 0) {
+            fprintf(stderr, "%s\n", kiriWorld_GetLastError(scene->world));
+        }
         if (scene->tick > ticks) {
             if (ticks == room) {
                 room = 2 * room + 64;
@@ -377,9 +380,6 @@ static bool Check(SceneReplay* replay, Scene* scene)
                 boxes[ticks++] = GetSeen(scene->world);
             }
         }
-    }
-    if (result < 0) {
-        fprintf(stderr, "%s\n", kiriWorld_GetLastError(scene->world));
     }
     replay->isRight = result == KIRI_OK || replay->isSave;
     isFine = isFine && PlanCamera(replay, boxes, ticks);

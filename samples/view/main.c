@@ -125,10 +125,13 @@ static void Close(Viewer* viewer)
     }
 }
 
-static void FillBox(Image* image, int32_t left, int32_t top, int32_t width, int32_t height, const uint8_t color[3])
+/* parts: of the colour in 4; the rest shows through. */
+static void FillBox(Image* image, int32_t left, int32_t top, int32_t width, int32_t height, const uint8_t color[3],
+                    int32_t parts)
 {
-    for (int32_t i = 0; i < width * height; i++) {
-        memcpy(image->rgb + 3 * (image->width * (top + i / width) + left + i % width), color, 3);
+    for (int32_t i = 0; i < 3 * width * height; i++) {
+        uint8_t* at = image->rgb + 3 * (image->width * (top + i / 3 / width) + left + i / 3 % width) + i % 3;
+        *at = (uint8_t)((parts * color[i % 3] + (4 - parts) * *at) / 4);
     }
 }
 
@@ -141,14 +144,14 @@ static void DrawBudget(const kiriWorld* world, Image* image)
     char words[160];
     double sum = 0.0;
     kiriWorld_GetProfile(world, &profile);
-    FillBox(image, LEFT, TOP, PANEL, ROW * (KIRI_STAGE_COUNT + 3), paper);
+    FillBox(image, LEFT, TOP, PANEL, ROW * (KIRI_STAGE_COUNT + 3), paper, 2);
     for (int32_t i = 0; i <= KIRI_STAGE_COUNT; i++) {
         double seconds = i < KIRI_STAGE_COUNT ? profile.seconds[i] : sum;
         int32_t top = TOP + 6 + ROW * i, width = (int32_t)(fmin(1.0, seconds / 8e-3) * BAR_WIDTH + 0.5);
         sum += seconds;
         snprintf(words, sizeof words, "%.2f ms", 1e3 * seconds);
         Image_WriteText(image, i < KIRI_STAGE_COUNT ? kiriGetStageName(i) : "all", SIZE, LEFT + 8, top, ink);
-        FillBox(image, LEFT + NAME, top + 2, width, ROW - 8, bar);
+        FillBox(image, LEFT + NAME, top + 2, width, ROW - 8, bar, 4);
         Image_WriteText(image, words, SIZE, LEFT + NAME + BAR_WIDTH + 10, top, ink);
     }
     snprintf(words, sizeof words, "%d triangles, %d cells, %d samples, %d iterations", profile.trianglesSplit,
