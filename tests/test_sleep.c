@@ -292,8 +292,28 @@ FIGURE(CrumpledSheetSleeps)
             awake += CrumpleSheet(skinning, tilts[i], &lowest) == 480;
         }
     }
-    if (awake > 2 || lowest < -6e-3) {
+    if (awake > 2 || lowest < -8e-3) {
         fail_msg("%d of 10 awake after 480 ticks, %g m deep", awake, lowest);
+    }
+}
+
+/* Contacts that moved otherwise than the surface gave energy to cloths over the rim of a table, in these layouts for ever. */
+FIGURE(TableclothsSleep)
+{
+    static const int32_t rows[][3] = { { 25, 32, 1 }, { 49, 24, 1 }, { 49, 32, 1 }, { 30, 32, 0 }, { 42, 48, 0 } };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); ++i) {
+        START_HOST(host);
+        kiriObstacleDef table = DefaultObstacle();
+        kiriSheetDef def = DefaultSheet();
+        table.type = KIRI_OBSTACLE_CYLINDER, table.radius = 0.4f, table.height = 0.7f, table.position[2] = 0.35f;
+        World_AddObstacle(host.world, &table);
+        def.frameCount = def.maxFrames = rows[i][0], def.gridResolution = rows[i][1], def.skinning = rows[i][2];
+        def.position[0] = -0.588f, def.position[1] = -0.612f, def.position[2] = 0.75f;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.2f, 1.2f, 32, 32);
+        for (int tick = 0; tick < 900 && IsAwake(&host, sheet); ++tick) {
+            Tick(&host);
+        }
+        assert_false(IsAwake(&host, sheet));
     }
 }
 

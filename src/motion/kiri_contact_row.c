@@ -89,21 +89,28 @@ static double InverseMass(const kiriContactStep* step, kiriVec3 point, kiriVec3 
 #define LEAST_FREE 0.5 /* of a contact's weights: minimum for frames that the host does not hold */
 #define FAR_BELOW 1e9  /* m: offset of planes that nothing can touch */
 
-/* Chooses the frames that the row acts on: the largest weights whose frames all have blocks of the matrix in common. So
-   their coupling is solved exactly. */
+/* Writes the largest weights as members, scaled to the sum 1. Those whose frames all have blocks of the matrix in common
+   come first. A hard contact has these alone: one system has to solve it. A soft one has to move as the surface does, or it
+   gives energy to a sheet at rest. */
 static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all, int32_t count, kiriContactStep* step)
 {
     double sum = 0.0;
-    KIRI_TIMES_WHILE(step->memberCount < KIRI_CONTACT_MEMBERS, n, count) {
+    KIRI_ASSERT(count > 0 && all[0].value > 0.0);
+    step->memberCount = kiriMin(count, (int32_t)KIRI_CONTACT_MEMBERS);
+    KIRI_TIMES(n, step->memberCount) {
         bool isCoupled = true;
-        KIRI_TIMES_WHILE(isCoupled, m, step->memberCount) {
+        KIRI_TIMES_WHILE(isCoupled, m, step->coupledCount) {
             kiriPair pair = { step->members[m].frame, all[n].frame };
             isCoupled = kiriMatrix_Covers(solver->matrix, pair);
         }
-        if (isCoupled) {
-            step->members[step->memberCount++] = all[n];
-            sum += all[n].value;
-        }
+        int32_t place = isCoupled ? step->coupledCount++ : n;
+        step->members[n] = step->members[place];
+        step->members[place] = all[n];
+    }
+    KIRI_ASSERT(step->coupledCount > 0 && step->coupledCount <= step->memberCount);
+    step->memberCount = IsSoft(step->row) ? step->memberCount : step->coupledCount;
+    KIRI_TIMES(m, step->memberCount) {
+        sum += step->members[m].value;
     }
     KIRI_TIMES(m, step->memberCount) {
         step->members[m].value /= sum;
@@ -214,14 +221,14 @@ static kiriYieldRow* FindYield(const kiriSolver* solver, const kiriIslandBody* m
 }
 
 /* Appends the weights of a side: frames of the island. */
-static int32_t AddSide(const kiriSolver* of, const kiriWeight* weights, int32_t count, double sign, kiriVec2 at,
+static int32_t AddSide(const kiriSolver* of, const kiriContactMember* weights, int32_t count, double sign,
                        kiriContactMember* all)
 {
     KIRI_TIMES(n, count) {
         const kiriSolverBody* body = &of->bodies.bodies.data[of->bodies.bodyOf.data[weights[n].frame]];
         all[n].frame = body->island + of->bodies.place.data[weights[n].frame];
         all[n].value = sign * weights[n].value;
-        all[n].at = at;
+        all[n].at = weights[n].at;
     }
     return count;
 }
@@ -240,9 +247,9 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     kiriVec3 apart = kiriSystem_Blend(system, all, row->weightCount + row->otherCount, solver->start.data);
     kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
     off = kiriVec3_Across(off, row->otherNormal);
-    row->otherAt = kiriVec2_Add(row->otherAt, kiriVec2_Make(off.x, off.y));
     KIRI_TIMES(n, row->otherCount) {
-        others[n].at = row->otherAt;
+        others[n].at = kiriVec2_Add(others[n].at, kiriVec2_Make(off.x, off.y));
+        row->otherWeights[n].at = others[n].at;
     }
 }
 
@@ -257,13 +264,13 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
     KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_WEIGHTS);
-    int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, row->at, all);
+    int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, all);
     if (row->other != NULL) {
         KIRI_ASSERT(row->weightCount <= KIRI_CONTACT_SIDE && row->otherCount <= KIRI_CONTACT_SIDE);
-        count += AddSide(row->other, row->otherWeights, row->otherCount, -1.0, row->otherAt, &all[count]);
+        count += AddSide(row->other, row->otherWeights, row->otherCount, -1.0, &all[count]);
         FollowSurface(solver, system, row, all);
         memcpy(step->members, all, sizeof(kiriContactMember) * (size_t)count);
-        step->memberCount = count;
+        step->memberCount = step->coupledCount = count;
     } else {
         ChooseMembers(solver, all, count, step);
     }
@@ -658,11 +665,29 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
 }
 
+/* Springs on the members from m on. `share`: sum of their weights. */
+static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, int32_t m, int32_t count,
+                       double share)
+{
+    kiriPointSprings at = SpringsOf(step, step->row->normal);
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
+        at.spring[e] /= share;
+    }
+    kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
+}
+
+/* Members without a common block are as if each had a spring of its own, by its weight. Their sum is no softer than the
+   spring of the point, and as stiff where all move alike. */
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
-        kiriPointSprings at = SpringsOf(step, step->row->normal);
-        kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, NULL, &at);
+        double share = 1.0; /* of the coupled members: the largest weight is one of them */
+        KIRI_FROM_TO(m, step->coupledCount, step->memberCount) {
+            KIRI_ASSERT(step->members[m].value > 0.0);
+            share -= step->members[m].value;
+            AddMembers(solver, system, step, m, 1, step->members[m].value);
+        }
+        AddMembers(solver, system, step, 0, step->coupledCount, share);
     }
 }
 
@@ -866,11 +891,12 @@ static kiriVec3 AlongNormalOf(const kiriSystem* system, const kiriContactStep* s
 /* Pushes a frame until the point, as it carries it, is on the plane. The frame moves without turning, so depths change
    as expected, however far it has turned. Each frame is pushed by itself, not only their blend. This keeps frames, and
    the material between the points, from passing each other on their way to the plane. */
-static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, int32_t f)
+static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, const kiriContactMember* member)
 {
+    int32_t f = member->frame;
     kiriVec3 along = AlongNormalOf(system, step);
-    kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, step->row->at, solver->poses.data),
-                                kiriSystem_Point(system, f, step->row->at, solver->start.data));
+    kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, member->at, solver->poses.data),
+                                kiriSystem_Point(system, f, member->at, solver->start.data));
     double depth = DepthAt(step, kiriVec3_Add(step->start, way)) - Yielded(step);
     double part = solver->stepping.part, share = kiriVec3_Dot(along, along);
     if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
@@ -886,7 +912,7 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContact
 {
     bool any = false;
     KIRI_TIMES(m, step->memberCount) {
-        any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, step, step->members[m].frame);
+        any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, step, &step->members[m]);
     }
     return any;
 }

@@ -698,7 +698,7 @@ kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int
     return system;
 }
 
-void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32_t* count)
+void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriContactMember* weights, int32_t* count)
 {
     const kiriSolverBodies* bodies = &solver->bodies;
     const kiriMatrix* matrix = bodies->bodies.data[bodies->bodyOf.data[weights[0].frame]].matrix;

@@ -31,24 +31,30 @@ typedef struct kiriSolver kiriSolver;
 
 enum { KIRI_CONTACT_WEIGHTS = 16, KIRI_CONTACT_SIDE = 4 };
 
+/* A frame that carries a point. Weights of a second point are negative: the point is then the difference of the two. */
+typedef struct kiriContactMember {
+    int32_t frame;
+    double value;
+    kiriVec2 at; /* local rest, m: the mean of the vertices that carry the point, by their weights for the frame */
+} kiriContactMember;
+
 /* A material point, blended from frames by weights, that stays above a plane. The plane is given at the start of the
    tick. It moves with `velocity` and with the impulse of its yield row. In a mutual contact it moves with a second
    material point, of the same sheet or of another. */
 typedef struct kiriContactRow {
     uint64_t key; /* identifies the contact from tick to tick; unique */
-    kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* the largest weights, scaled to the sum 1; all frames are of one piece */
+    kiriContactMember weights[KIRI_CONTACT_WEIGHTS]; /* the largest, scaled to the sum 1; all frames are of one piece */
     int32_t weightCount;                      /* 1 or more; at most KIRI_CONTACT_SIDE in a mutual contact */
     bool isFold;                              /* both points are of one body */
     kiriSolver* other;                        /* solver of the sheet of the second point; null: no mutual contact */
-    kiriWeight otherWeights[KIRI_CONTACT_SIDE]; /* of the second point, likewise */
+    kiriContactMember otherWeights[KIRI_CONTACT_SIDE]; /* of the second point, likewise; a step moves their places along
+                                                          the surface to where the first point is */
     int32_t otherCount;
-    kiriVec2 otherAt; /* local rest, m; a step moves it along the surface to where the first point is */
     kiriVec3 otherNormal; /* the normal in the axes of its first frame, with which it turns */
     kiriVec3 otherOff;    /* m: offset from the second point to the first one in these axes, to be kept along the surface */
     int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
     double felt;    /* 1/kg: inverse mass of the yield row at the point, in any direction; below 0: from its mass and
                        inertia */
-    kiriVec2 at;    /* local rest, m */
     kiriVec3 normal;   /* unit, to the side of the sheet */
     double offset;     /* m: dot(normal, x) of the plane, for x as blended from the frames. If the visible point differs
                           from x, the plane is shifted by the difference */
@@ -64,13 +70,6 @@ typedef struct kiriContactRow {
 } kiriContactRow;
 
 enum { KIRI_STITCH_MEMBERS = 2 * KIRI_CONTACT_WEIGHTS };
-
-/* A frame that carries a point. Weights of a second point are negative: the point is then the difference of the two. */
-typedef struct kiriContactMember {
-    int32_t frame;
-    double value;
-    kiriVec2 at; /* local rest, m */
-} kiriContactMember;
 
 /* A stitch of a seam: a spring between two material points, of one body or of two. */
 typedef struct kiriStitchRow {
@@ -231,7 +230,7 @@ typedef struct kiriIslandMatrix {
 
 /* Keeps the largest weights of one side of a mutual contact whose frames the pattern of their body couples, scaled to the
    sum 1. */
-void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32_t* count);
+void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriContactMember* weights, int32_t* count);
 
 /* Shapes the matrix of an island: pairs of the patterns of its bodies, and pairs of mutual contacts and of stitches.
    Reserves the scratch of `solver`, which steps the island. Rows are written and shared. Fails on out of memory. */
@@ -424,7 +423,7 @@ typedef struct kiriContactStep {
     kiriContactRow* row;
     kiriYieldRow* yield; /* of the row, or null */
     kiriContactMember members[KIRI_CONTACT_MEMBERS];
-    int32_t memberCount;
+    int32_t memberCount, coupledCount; /* the first ones all have blocks of the matrix in common */
     bool isHeld;      /* the host holds half of the frames or more, by weight */
     double mass;      /* kg: of the frames, by weight */
     kiriVec3 start;   /* m: position of the point at the start of the step */

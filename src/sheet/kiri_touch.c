@@ -522,12 +522,11 @@ bool kiriTouches_Reserve(kiriSheetData* sheet)
 enum { MOST_BLENDED = 96 }; /* largest count of frames that carry three vertices */
 
 typedef struct TouchBlend {
-    kiriWeight weights[MOST_BLENDED];
+    kiriContactMember weights[MOST_BLENDED]; /* `at`: sum of places by their weights */
     int32_t count;
-    kiriVec2 at;
 } TouchBlend;
 
-static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share)
+static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share, kiriVec2 at)
 {
     kiriSpan span = skin->spans.data[sample];
     KIRI_EACH_IN(k, span) {
@@ -536,12 +535,12 @@ static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, 
         while (n < blend->count && blend->weights[n].frame != frame) {
             ++n;
         }
+        if (n == blend->count && n < MOST_BLENDED) {
+            blend->weights[blend->count++] = (kiriContactMember){ .frame = frame };
+        }
         if (n < blend->count) {
             blend->weights[n].value += share * weight.value;
-        } else if (n < MOST_BLENDED) {
-            blend->weights[n].frame = frame;
-            blend->weights[n].value = share * weight.value;
-            blend->count += 1;
+            blend->weights[n].at = kiriVec2_AddScaled(blend->weights[n].at, share * weight.value, at);
         }
     }
 }
@@ -551,22 +550,20 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     TouchBlend blend;
     blend.count = 0;
     if (touch->point != KIRI_NONE) {
-        blend.at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
-        AddWeights(&blend, &sheet->pointSkin, touch->point, 1.0);
+        kiriVec2 at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
+        AddWeights(&blend, &sheet->pointSkin, touch->point, 1.0, at);
         return blend;
     }
-    blend.at = kiriVec2_Make(0.0, 0.0);
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         kiriVec2 corner = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[touch->vertex[n]].at);
-        blend.at = kiriVec2_AddScaled(blend.at, touch->share[n], corner);
-        AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
+        AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n], corner);
     }
     return blend;
 }
 
 /* Writes the largest weights, at most `most`, and returns their number. If a cut separated the vertices, the piece with
    the largest weight gets the contact. */
-static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriWeight* weights, int32_t most)
+static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriContactMember* weights, int32_t most)
 {
     const int32_t* piece = sheet->layout.framePiece.data;
     int32_t count = 0;
@@ -574,13 +571,14 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
     KIRI_TIMES_WHILE(count < most, n, blend->count) {
         int32_t best = n; /* the largest one that remains; among equal ones the lower frame */
         KIRI_FROM_TO(k, n + 1, blend->count) {
-            const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];
+            const kiriContactMember *a = &blend->weights[k], *b = &blend->weights[best];
             best = a->value > b->value || (a->value == b->value && a->frame < b->frame) ? k : best;
         }
-        kiriWeight weight = blend->weights[best];
+        kiriContactMember weight = blend->weights[best];
         blend->weights[best] = blend->weights[n];
         blend->weights[n] = weight;
         if (weight.value > 0.0 && (n == 0 || piece[weight.frame] == piece[weights[0].frame])) {
+            weight.at = kiriVec2_Scale(1.0 / weight.value, weight.at);
             weights[count++] = weight;
             sum += weight.value;
         }
@@ -592,7 +590,7 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
     return count;
 }
 
-int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriWeight* weights)
+int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* weights)
 {
     kiriTouch touch = { .point = KIRI_NONE };
     kiriPointPlace place;
@@ -606,11 +604,11 @@ int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, 
 }
 
 /* Returns the point that frames carry by these weights. */
-static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count, kiriVec2 at)
+static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriContactMember* weights, int32_t count)
 {
     kiriVec3 x = { 0 };
     KIRI_TIMES(n, count) {
-        x = kiriVec3_AddScaled(x, weights[n].value, kiriFrame_Carry(&sheet->frames.data[weights[n].frame], at));
+        x = kiriVec3_AddScaled(x, weights[n].value, kiriFrame_Carry(&sheet->frames.data[weights[n].frame], weights[n].at));
     }
     return x;
 }
@@ -620,7 +618,6 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     TouchBlend blend = BlendOf(sheet, touch);
     KIRI_CLEAR(row);
     row->key = touch->key;
-    row->at = blend.at;
     row->normal = touch->normal;
     row->velocity = touch->velocity;
     row->friction = touch->friction;
@@ -633,14 +630,14 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->felt = touch->felt;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
     row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_WEIGHTS);
-    kiriVec3 at = CarriedPoint(sheet, row->weights, row->weightCount, row->at);
+    kiriVec3 at = CarriedPoint(sheet, row->weights, row->weightCount);
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
 #define PROBE_SHARE 0.25 /* of the mass of the frames that carry a probe: most that it represents */
 
 /* Returns the mass that a probe represents, kg: of its block of grid squares, or less in a small piece. */
-static double ProbeMass(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count)
+static double ProbeMass(const kiriSheetData* sheet, const kiriContactMember* weights, int32_t count)
 {
     const kiriMaterial* material = &sheet->settings.material;
     double side = sheet->mesh.step * sheet->mesh.squares.side * sheet->probes.block, carried = 0.0;
@@ -662,7 +659,6 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
     row->otherCount = WriteWeights(other, &blend, row->otherWeights, KIRI_CONTACT_SIDE);
     row->mass = kiriMin(ProbeMass(sheet, row->weights, row->weightCount),
                         ProbeMass(other, row->otherWeights, row->otherCount));
-    row->otherAt = blend.at;
     const int32_t* pieces = sheet->layout.framePiece.data;
     row->isFold = sheet == other && pieces[row->weights[0].frame] == pieces[row->otherWeights[0].frame];
     row->reach = 0.5 * (row->isFold ? sheet->settings.foldThickness : distance);
@@ -675,8 +671,8 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
     row->other = other->solver;
     row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
     /* The plane is at `distance` of the second point. Visible points differ from those that frames carry. */
-    kiriVec3 from = CarriedPoint(other, row->otherWeights, row->otherCount, row->otherAt);
-    kiriVec3 to = CarriedPoint(sheet, row->weights, row->weightCount, row->at);
+    kiriVec3 from = CarriedPoint(other, row->otherWeights, row->otherCount);
+    kiriVec3 to = CarriedPoint(sheet, row->weights, row->weightCount);
     kiriVec3 apart = kiriVec3_Sub(to, from);
     const kiriMat3* A = &other->frames.data[row->otherWeights[0].frame].A;
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(apart, touch->seen));
@@ -902,11 +898,7 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
     kiriVec3 way = kiriVec3_Make(0.0, 0.0, 0.0);
     if (touch->row != KIRI_NONE) {
         const kiriContactRow* row = &sheet->touches.rows.data[touch->row];
-        kiriVec3 now = { 0 };
-        KIRI_TIMES(n, row->weightCount) {
-            kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);
-            now = kiriVec3_AddScaled(now, row->weights[n].value, x);
-        }
+        kiriVec3 now = CarriedPoint(sheet, row->weights, row->weightCount);
         /* The visible point is offset from the frames' blend by the same distance as the plane. */
         at = kiriVec3_AddScaled(now, touch->offset - row->offset, row->normal);
         impulse = row->impulse;

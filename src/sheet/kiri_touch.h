@@ -102,7 +102,7 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 
 /* Writes the largest weights of a material point, up to KIRI_CONTACT_WEIGHTS, largest first, with the sum 1. All frames
    are of one piece. Returns their number; 0 outside the material. */
-int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriWeight* weights);
+int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* weights);
 
 /* Stored contact forces, by key. */
 

@@ -55,7 +55,7 @@ static void WakeEnds(const kiriWorld* world, const kiriStitchData* stitch)
 /* Sets the frame that carries most of the point. Returns false outside the material, and on a destroyed piece. */
 static bool FollowEnd(const kiriSheetData* sheet, kiriStitchData* stitch, int end)
 {
-    kiriWeight weights[KIRI_CONTACT_WEIGHTS];
+    kiriContactMember weights[KIRI_CONTACT_WEIGHTS];
     int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
     bool isThere = count > 0 && !kiriSheet_IsGone(sheet, weights[0].frame);
     stitch->frames[end] = isThere ? sheet->frames.data[weights[0].frame].id : stitch->frames[end];
@@ -76,7 +76,7 @@ void kiriSeams_Follow(kiriWorld* world)
 
 /* Changes weights so that the mean of the centres lies beside the point along a way, or is as near as weights above 0
    allow. */
-static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way, kiriWeight* weights, int32_t count)
+static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way, kiriContactMember* weights, int32_t count)
 {
     double off[KIRI_CONTACT_WEIGHTS], mean = 0.0, spread = 0.0, last = 0.0;
     KIRI_TIMES(n, count) {
@@ -103,7 +103,7 @@ static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way,
 static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch, int end, bool bends,
                         kiriContactMember* members)
 {
-    kiriWeight weights[KIRI_CONTACT_WEIGHTS];
+    kiriContactMember weights[KIRI_CONTACT_WEIGHTS];
     int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
     KIRI_ASSERT(count >= 0 && count <= KIRI_CONTACT_WEIGHTS);
     kiriVec2 point = kiriMesh_Local(&sheet->mesh, stitch->at[end]), rest = point;
