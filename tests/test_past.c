@@ -2,7 +2,6 @@
    changed. */
 #include "host.h"
 
-
 #include <stdio.h>
 
 enum { MOST_SHEETS = 64 };

@@ -2,7 +2,6 @@
 #include "defaults.h"
 #include "tape.h"
 
-
 /* ---- Small recordings -------------------------------------------------------------------------------------------- */
 
 /* A sheet falls on a floor while it is cut. */

@@ -676,8 +676,8 @@ static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriC
     kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
 }
 
-/* Members without a common block are as if each had a spring of its own, by its weight. Their sum is no softer than the
-   spring of the point, and as stiff where all move alike. */
+/* Each member without a common block has a spring of its own, by its weight. The springs together are at least as stiff as the
+   spring of the point, and exactly as stiff where all frames move alike. */
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
