@@ -96,7 +96,7 @@ static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all
 {
     double sum = 0.0;
     KIRI_ASSERT(count > 0 && all[0].value > 0.0);
-    step->memberCount = kiriMin(count, (int32_t)KIRI_CONTACT_MEMBERS);
+    step->memberCount = count;
     KIRI_TIMES(n, step->memberCount) {
         bool isCoupled = true;
         KIRI_TIMES_WHILE(isCoupled, m, step->coupledCount) {
@@ -259,11 +259,11 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < member->sheet->contactCount);
     kiriContactStep* step = &KIRI_NEXT(solver->contacts);
     kiriContactRow* row = &member->sheet->contacts[k];
-    kiriContactMember all[KIRI_CONTACT_WEIGHTS + KIRI_CONTACT_SIDE];
+    kiriContactMember all[KIRI_CONTACT_MEMBERS];
     KIRI_CLEAR(step);
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
-    KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_WEIGHTS);
+    KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_MEMBERS);
     int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, all);
     if (row->other != NULL) {
         KIRI_ASSERT(row->weightCount <= KIRI_CONTACT_SIDE && row->otherCount <= KIRI_CONTACT_SIDE);

@@ -698,44 +698,25 @@ kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int
     return system;
 }
 
-void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriContactMember* weights, int32_t* count)
-{
-    const kiriSolverBodies* bodies = &solver->bodies;
-    const kiriMatrix* matrix = bodies->bodies.data[bodies->bodyOf.data[weights[0].frame]].matrix;
-    int32_t kept = 0;
-    double sum = 0.0;
-    KIRI_TIMES_WHILE(kept < KIRI_CONTACT_SIDE, n, *count) {
-        bool isCoupled = true;
-        KIRI_TIMES_WHILE(isCoupled, m, kept) {
-            kiriPair pair = { bodies->place.data[weights[m].frame], bodies->place.data[weights[n].frame] };
-            isCoupled = kiriMatrix_Covers(matrix, pair);
-        }
-        if (isCoupled) {
-            weights[kept++] = weights[n];
-            sum += weights[kept - 1].value;
-        }
-    }
-    KIRI_TIMES(n, kept) {
-        weights[n].value /= sum;
-    }
-    *count = kept;
-}
-
 static bool AddPair(kiriMemory* memory, kiriIslandMatrix* island, int32_t a, int32_t b)
 {
     kiriPair pair = { kiriMin(a, b), kiriMax(a, b) };
     return a == b || kiriArray_Push(memory, &island->next, pair);
 }
 
-/* Collects the pairs of the mutual contacts of a body. */
+/* Collects the pairs of all frames of each mutual contact of a body. */
 static bool AddContactPairs(kiriMemory* memory, kiriIslandMatrix* island, const kiriIslandBody* member)
 {
     bool ok = true;
     for (int32_t k = BodyOfMember(member)->contact; ok && k != KIRI_NONE; k = member->sheet->contacts[k].next) {
         const kiriContactRow* row = &member->sheet->contacts[k];
-        KIRI_TIMES_WHILE(ok && row->other != NULL, i, row->weightCount * row->otherCount) {
-            int32_t a = row->weights[i / row->otherCount].frame, b = row->otherWeights[i % row->otherCount].frame;
-            ok = AddPair(memory, island, IslandFrame(member->solver, a), IslandFrame(row->other, b));
+        int32_t frames[2 * KIRI_CONTACT_SIDE], count = row->other != NULL ? row->weightCount + row->otherCount : 0;
+        KIRI_TIMES(a, count) {
+            int32_t b = a - row->weightCount;
+            frames[a] = b < 0 ? IslandFrame(member->solver, row->weights[a].frame) : IslandFrame(row->other, row->otherWeights[b].frame);
+            KIRI_TIMES_WHILE(ok, n, a) {
+                ok = AddPair(memory, island, frames[a], frames[n]);
+            }
         }
     }
     return ok;

@@ -29,7 +29,7 @@ typedef struct kiriYieldRow {
 
 typedef struct kiriSolver kiriSolver;
 
-enum { KIRI_CONTACT_WEIGHTS = 16, KIRI_CONTACT_SIDE = 4 };
+enum { KIRI_CONTACT_MEMBERS = 8, KIRI_CONTACT_SIDE = 4, KIRI_STITCH_SIDE = 16 };
 
 /* A frame that carries a point. Weights of a second point are negative: the point is then the difference of the two. */
 typedef struct kiriContactMember {
@@ -43,7 +43,7 @@ typedef struct kiriContactMember {
    material point, of the same sheet or of another. */
 typedef struct kiriContactRow {
     uint64_t key; /* identifies the contact from tick to tick; unique */
-    kiriContactMember weights[KIRI_CONTACT_WEIGHTS]; /* the largest, scaled to the sum 1; all frames are of one piece */
+    kiriContactMember weights[KIRI_CONTACT_MEMBERS]; /* the largest, scaled to the sum 1; all frames are of one piece */
     int32_t weightCount;                      /* 1 or more; at most KIRI_CONTACT_SIDE in a mutual contact */
     bool isFold;                              /* both points are of one body */
     kiriSolver* other;                        /* solver of the sheet of the second point; null: no mutual contact */
@@ -69,7 +69,7 @@ typedef struct kiriContactRow {
     int32_t next;      /* next row of the same body, or KIRI_NONE: kiriSolver_ShareRows */
 } kiriContactRow;
 
-enum { KIRI_STITCH_MEMBERS = 2 * KIRI_CONTACT_WEIGHTS };
+enum { KIRI_STITCH_MEMBERS = 2 * KIRI_STITCH_SIDE };
 
 /* A stitch of a seam: a spring between two material points, of one body or of two. */
 typedef struct kiriStitchRow {
@@ -227,10 +227,6 @@ typedef struct kiriIslandMatrix {
     kiriMatrix* matrix; /* null: none yet */
     KIRI_ARRAY(kiriPair) pairs, next; /* of the matrix, and of the island */
 } kiriIslandMatrix;
-
-/* Keeps the largest weights of one side of a mutual contact whose frames the pattern of their body couples, scaled to the
-   sum 1. */
-void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriContactMember* weights, int32_t* count);
 
 /* Shapes the matrix of an island: pairs of the patterns of its bodies, and pairs of mutual contacts and of stitches.
    Reserves the scratch of `solver`, which steps the island. Rows are written and shared. Fails on out of memory. */
@@ -411,7 +407,6 @@ typedef struct kiriStepEnergy {
     double flow; /* J: part of the potential that plastic flow takes */
 } kiriStepEnergy;
 
-enum { KIRI_CONTACT_MEMBERS = 8 };
 
 #define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter slides count as zero */
 

@@ -600,7 +600,7 @@ int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, 
     memcpy(touch.vertex, sheet->mesh.triangles.data[place.triangle].vertex, sizeof(touch.vertex));
     memcpy(touch.share, place.shares, sizeof(touch.share));
     TouchBlend blend = BlendOf(sheet, &touch);
-    return WriteWeights(sheet, &blend, weights, KIRI_CONTACT_WEIGHTS);
+    return WriteWeights(sheet, &blend, weights, KIRI_STITCH_SIDE);
 }
 
 /* Returns the point that frames carry by these weights. */
@@ -629,7 +629,7 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->yield = touch->yield;
     row->felt = touch->felt;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
-    row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_WEIGHTS);
+    row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_MEMBERS);
     kiriVec3 at = CarriedPoint(sheet, row->weights, row->weightCount);
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
@@ -666,8 +666,8 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
         other->settings.mechanics.model != sheet->settings.mechanics.model) {
         return false;
     }
-    kiriSolver_KeepCoupled(sheet->solver, row->weights, &row->weightCount);
-    kiriSolver_KeepCoupled(other->solver, row->otherWeights, &row->otherCount);
+    blend = BlendOf(sheet, touch);
+    row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_SIDE);
     row->other = other->solver;
     row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
     /* The plane is at `distance` of the second point. Visible points differ from those that frames carry. */

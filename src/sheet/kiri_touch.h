@@ -100,7 +100,7 @@ int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample);
 /* Returns the velocity of a vertex, m/s. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 
-/* Writes the largest weights of a material point, up to KIRI_CONTACT_WEIGHTS, largest first, with the sum 1. All frames
+/* Writes the largest weights of a material point, up to KIRI_STITCH_SIDE, largest first, with the sum 1. All frames
    are of one piece. Returns their number; 0 outside the material. */
 int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* weights);
 

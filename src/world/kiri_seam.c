@@ -55,7 +55,7 @@ static void WakeEnds(const kiriWorld* world, const kiriStitchData* stitch)
 /* Sets the frame that carries most of the point. Returns false outside the material, and on a destroyed piece. */
 static bool FollowEnd(const kiriSheetData* sheet, kiriStitchData* stitch, int end)
 {
-    kiriContactMember weights[KIRI_CONTACT_WEIGHTS];
+    kiriContactMember weights[KIRI_STITCH_SIDE];
     int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
     bool isThere = count > 0 && !kiriSheet_IsGone(sheet, weights[0].frame);
     stitch->frames[end] = isThere ? sheet->frames.data[weights[0].frame].id : stitch->frames[end];
@@ -78,7 +78,7 @@ void kiriSeams_Follow(kiriWorld* world)
    allow. */
 static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way, kiriContactMember* weights, int32_t count)
 {
-    double off[KIRI_CONTACT_WEIGHTS], mean = 0.0, spread = 0.0, last = 0.0;
+    double off[KIRI_STITCH_SIDE], mean = 0.0, spread = 0.0, last = 0.0;
     KIRI_TIMES(n, count) {
         off[n] = kiriVec2_Dot(kiriVec2_Sub(sheet->frames.data[weights[n].frame].center, point), way);
         mean += weights[n].value * off[n];
@@ -103,9 +103,9 @@ static void Straighten(const kiriSheetData* sheet, kiriVec2 point, kiriVec2 way,
 static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch, int end, bool bends,
                         kiriContactMember* members)
 {
-    kiriContactMember weights[KIRI_CONTACT_WEIGHTS];
+    kiriContactMember weights[KIRI_STITCH_SIDE];
     int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
-    KIRI_ASSERT(count >= 0 && count <= KIRI_CONTACT_WEIGHTS);
+    KIRI_ASSERT(count >= 0 && count <= KIRI_STITCH_SIDE);
     kiriVec2 point = kiriMesh_Local(&sheet->mesh, stitch->at[end]), rest = point;
     if (bends) {
         Straighten(sheet, point, kiriVec2_Make(-stitch->inward[end].y, stitch->inward[end].x), weights, count);
@@ -515,7 +515,7 @@ bool kiriSeams_Stir(const kiriWorld* world)
 
 kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch, int end)
 {
-    kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+    kiriContactMember members[KIRI_STITCH_SIDE];
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[stitch], end);
     return CarriedEnd(sheet, members, CarryEnd(sheet, &seam->stitches.data[stitch], end, seam->bends, members));
@@ -537,7 +537,7 @@ double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     FindWays(data, 0.0, ways);
     KIRI_TIMES(end, 2) {
-        kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+        kiriContactMember members[KIRI_STITCH_SIDE];
         const kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
         int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
         seen[end] = BlendedWay(sheet, members, count, ways[end]);
@@ -562,7 +562,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
     FindWays(data, seam->restAngle, row->ways);
     KIRI_TIMES(end, 2) {
         kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
-        kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+        kiriContactMember members[KIRI_STITCH_SIDE];
         int32_t count = CarryEnd(sheet, data, end, seam->bends, members);
         if (count == 0) {
             return false;
