@@ -665,29 +665,29 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
 }
 
-/* Springs on the members from m on. `share`: sum of their weights. */
+/* Adds springs on the members from m on. `share`: sum of their weights. */
 static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, int32_t m, int32_t count,
-                       double share)
+                       double share, kiriPointSprings at)
 {
-    kiriPointSprings at = SpringsOf(step, step->row->normal);
     KIRI_TIMES(e, KIRI_POINT_ROWS) {
         at.spring[e] /= share;
     }
     kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
 }
 
-/* Each member without a common block has a spring of its own, by its weight. The springs together are at least as stiff as the
+/* A member without a common block gets a spring of its own, by its weight. All springs together are at least as stiff as the
    spring of the point, and exactly as stiff where all frames move alike. */
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
+        kiriPointSprings at = SpringsOf(step, step->row->normal);
         double share = 1.0; /* of the coupled members: the largest weight is one of them */
         KIRI_FROM_TO(m, step->coupledCount, step->memberCount) {
             KIRI_ASSERT(step->members[m].value > 0.0);
             share -= step->members[m].value;
-            AddMembers(solver, system, step, m, 1, step->members[m].value);
+            AddMembers(solver, system, step, m, 1, step->members[m].value, at);
         }
-        AddMembers(solver, system, step, 0, step->coupledCount, share);
+        AddMembers(solver, system, step, 0, step->coupledCount, share, at);
     }
 }
 

@@ -35,7 +35,7 @@ enum { KIRI_CONTACT_MEMBERS = 8, KIRI_CONTACT_SIDE = 4, KIRI_STITCH_SIDE = 16 };
 typedef struct kiriContactMember {
     int32_t frame;
     double value;
-    kiriVec2 at; /* local rest, m: the mean of the vertices that carry the point, by their weights for the frame */
+    kiriVec2 at; /* local rest, m */
 } kiriContactMember;
 
 /* A material point, blended from frames by weights, that stays above a plane. The plane is given at the start of the
@@ -43,7 +43,9 @@ typedef struct kiriContactMember {
    material point, of the same sheet or of another. */
 typedef struct kiriContactRow {
     uint64_t key; /* identifies the contact from tick to tick; unique */
-    kiriContactMember weights[KIRI_CONTACT_MEMBERS]; /* the largest, scaled to the sum 1; all frames are of one piece */
+    /* The largest weights, scaled to the sum 1; all frames are of one piece. Places: the mean of the vertices that carry the
+       point, by their weights for the frame. */
+    kiriContactMember weights[KIRI_CONTACT_MEMBERS];
     int32_t weightCount;                      /* 1 or more; at most KIRI_CONTACT_SIDE in a mutual contact */
     bool isFold;                              /* both points are of one body */
     kiriSolver* other;                        /* solver of the sheet of the second point; null: no mutual contact */
@@ -406,7 +408,6 @@ typedef struct kiriStepEnergy {
     double objective, potential;
     double flow; /* J: part of the potential that plastic flow takes */
 } kiriStepEnergy;
-
 
 #define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter slides count as zero */
 
