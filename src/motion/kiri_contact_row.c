@@ -675,8 +675,8 @@ static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriC
     kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
 }
 
-/* A member without a common block gets a spring of its own, by its weight. All springs together are at least as stiff as the
-   spring of the point, and exactly as stiff where all frames move alike. */
+/* A member without a common block gets a separate spring, which its weight scales. All springs together are at least as stiff as
+   the spring of the point, and exactly as stiff where all frames move alike. */
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
