@@ -485,7 +485,7 @@ static void CountPressed(const kiriSolver* solver)
 /* Sets the springs. The contact's spring is stiff enough to be invisible, in series with the inertia of the obstacle.
    Contacts that press on one obstacle each get an equal share of its mass: then no contact gives it more than its
    momentum, and together they give all of it (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
-static void SetSprings(const kiriSolver* solver, kiriContactStep* step, kiriVec3 point)
+static void SetSprings(const kiriSolver* solver, kiriContactStep* step)
 {
     const kiriContactRow* row = step->row;
     const kiriYieldRow* yield = step->yield;
@@ -496,23 +496,23 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step, kiriVec3
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->give = soft * InverseMass(step, point, row->normal);
+    step->give = soft * InverseMass(step, step->point, row->normal);
     step->stiffness = 1.0 / (1.0 / spring + step->give);
-    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, point, along));
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, step->point, along));
 }
 
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
     CountPressed(solver);
     KIRI_EACH(kiriContactStep, step, solver->contacts) {
-        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
-        step->depth = DepthAt(step, point);
-        step->slide = SlideAt(step, point);
+        step->point = kiriContact_Point(system, step, solver->poses.data);
+        step->depth = DepthAt(step, step->point);
+        step->slide = SlideAt(step, step->point);
         if (IsSoft(step->row)) {
             LinearizeSoft(step, solver->search.isFirst);
             continue;
         }
-        SetSprings(solver, step, point);
+        SetSprings(solver, step);
         step->sinks = 0.0;
         step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
     }
@@ -541,7 +541,8 @@ double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, co
                           const kiriPose* poses)
 {
     if (IsSoft(step->row)) {
-        return SoftEnergy(step, kiriContact_Point(system, step, poses));
+        bool isKnown = solver->isAlong && poses == solver->poses.data;
+        return SoftEnergy(step, isKnown ? step->point : kiriContact_Point(system, step, poses));
     }
     if (!step->isActive) {
         return 0.0;
@@ -599,14 +600,17 @@ static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiri
                         kiriVec3 arm, bool isPoint, kiriVec3 axis, double* J)
 {
     kiriVec3 along = kiriVec3_Scale(member.value, axis), none = { 0.0, 0.0, 0.0 };
-    kiriFrameRow row = { { isPoint ? along : none, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along),
-                           kiriVec3_Scale(local.z, along) } };
-    if (!kiriMechanics_IsAffine(&system->mechanics)) {
-        row.by[1] = kiriVec3_Cross(arm, along);
-    }
     if (system->frames[member.frame].held) {
         memset(J, 0, sizeof(double) * (size_t)solver->size);
+    } else if (solver->size == 6 && !system->mechanics.planar) { /* a row is J as it is */
+        kiriVec3_StoreDoubles(J, isPoint ? along : none);
+        kiriVec3_StoreDoubles(J + 3, kiriVec3_Cross(arm, along));
     } else {
+        kiriFrameRow row = { { isPoint ? along : none, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along),
+                               kiriVec3_Scale(local.z, along) } };
+        if (!kiriMechanics_IsAffine(&system->mechanics)) {
+            row.by[1] = kiriVec3_Cross(arm, along);
+        }
         kiriSolver_Reduce(solver, &row, J);
     }
 }
@@ -835,12 +839,12 @@ static double Yielded(const kiriContactStep* step)
 }
 
 /* Returns true if a point of the body is too deep. Stores the pushes of the systems in `solved`. */
-static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
+static bool IsDeep(kiriSolver* solver)
 {
     bool isDeep = false;
     KIRI_EACH(kiriContactStep, step, solver->contacts) {
         step->solved = step->push;
-        double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
+        double depth = DepthAt(step, step->point) - Yielded(step);
         isDeep |= !kiriContact_IsMutual(step) && depth > MOST_DEPTH + step->row->reach;
     }
     return isDeep;
@@ -977,7 +981,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
 
 void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    if (!IsDeep(solver, system)) {
+    if (!IsDeep(solver)) {
         return;
     }
     memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
@@ -1053,12 +1057,12 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, d
 }
 
 /* Gives the yield row `times` the impulse of the contact in the step. */
-static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, double times)
+static void Give(const kiriSolver* solver, const kiriContactStep* step, double times)
 {
     kiriYieldRow* yield = step->yield;
     if (yield != NULL) {
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
-        kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(system, step, solver->poses.data), yield->center);
+        kiriVec3 arm = kiriVec3_Sub(step->point, yield->center);
         kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
         kiriWrench_Add(&yield->impulse, -times, &given);
     }
@@ -1116,21 +1120,19 @@ static void FindMore(kiriSolver* solver, Pinned* sum)
 }
 
 /* Computes the push on the obstacle times the obstacle's, and times the sheet's, speed along it, N s m/s. */
-static void FindPower(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                      double* ofObstacle, double* ofSheet)
+static void FindPower(const kiriSolver* solver, const kiriContactStep* step, double* ofObstacle, double* ofSheet)
 {
-    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0 };
-    kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
+    kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step)), way = { 0 };
     KIRI_TIMES(m, step->memberCount) {
         kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
         way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
     }
-    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step, point));
+    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step, step->point));
     *ofSheet = kiriVec3_Dot(push, way);
 }
 
 /* Gives obstacles the impulses of contacts. If isMore, sums the power of the pushes before and after that. */
-static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
+static void GivePushes(const kiriSolver* solver, bool isMore)
 {
     double ofObstacle, ofSheet;
     KIRI_EACH(kiriContactStep, contact, solver->contacts) {
@@ -1142,18 +1144,18 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
     KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
         kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
-            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            FindPower(solver, step, &ofObstacle, &ofSheet);
             yield->before += ofObstacle;
             yield->most += kiriMax(ofSheet, 0.0);
         }
     }
     KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-        Give(solver, system, contact, 1.0);
+        Give(solver, contact, 1.0);
     }
     KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
         kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
-            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            FindPower(solver, step, &ofObstacle, &ofSheet);
             yield->after += ofObstacle;
         }
     }
@@ -1183,17 +1185,16 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
         sum = SumPinned(solver, system);
         FindMore(solver, &sum);
     }
-    GivePushes(solver, system, sum.more > 1.0);
+    GivePushes(solver, sum.more > 1.0);
     sum.more = LimitMore(solver, sum.more);
     KIRI_EACH_WHILE(sum.more > 1.0, kiriContactStep, contact, solver->contacts) {
-        Give(solver, system, contact, sum.more - 1.0);
+        Give(solver, contact, sum.more - 1.0);
     }
     solver->touch.keepForces *= sum.more;
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriContactRow* row = step->row;
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
         row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
-        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step, point));
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step, step->point));
     }
 }

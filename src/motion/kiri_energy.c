@@ -114,13 +114,13 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
                                    .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
-        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        step->point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         if (system->mechanics.planar) {
             impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
         }
-        kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
+        kiriWrench given = { impulse, kiriVec3_Cross(step->point, impulse) };
         if (kiriContact_IsMutual(step)) { /* it acts on both sides, whose points are `point` apart */
             given.force = kiriVec3_Make(0.0, 0.0, 0.0);
         }

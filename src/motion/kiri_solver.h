@@ -423,6 +423,7 @@ typedef struct kiriContactStep {
     bool isHeld;      /* the host holds half of the frames or more, by weight */
     double mass;      /* kg: of the frames, by weight */
     kiriVec3 start;   /* m: position of the point at the start of the step */
+    kiriVec3 point;   /* m: at the last kiriSolver_LinearizeContacts or kiriSolver_FindGains */
     kiriVec3 carried; /* m: displacement of the obstacle in the step */
     double plane;     /* m: offset at the end of the step, limited by pushSpeed */
     double lowered;   /* m: distance of that plane below the obstacle's surface */

@@ -651,16 +651,7 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
 void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* springs, const double* pulls, int rows)
 {
-    int32_t size = solver->size;
-    KIRI_TIMES(e, rows) {
-        for (int32_t m = 0; m < frameCount; ++m, J += size) {
-            double* force = &solver->force.data[size * frames[m]];
-            KIRI_TIMES(n, size) {
-                force[n] += pulls[e] * J[n];
-            }
-        }
-    }
-    J -= size * frameCount * rows;
+    kiriMatrix_AddForces(solver->matrix, frames, frameCount, J, pulls, rows, solver->force.data);
     kiriMatrix_AddSquares(solver->matrix, frames, frameCount, J, springs, rows);
 }
 

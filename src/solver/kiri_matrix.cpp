@@ -199,6 +199,13 @@ INLINE void SubtractSixBySix(const Product* p, int32_t row, int32_t column)
     }
 }
 
+/* Subtracts the product of two frames of an element. Constant strides save 40 % of its instructions. */
+WITH_AVX void SubtractBlockByAvx(double* out, const double* a, int32_t aStride, const double* b, int32_t depth)
+{
+    const Product product = { out, a, b, 6, aStride, 6, 6, 6, depth };
+    SubtractSixBySix(&product, 0, 0);
+}
+
 WITH_AVX void SubtractByAvx(const Product& product)
 {
     const Product local = product, *p = &local; /* `out` cannot alias it */
@@ -283,13 +290,28 @@ void AddSquareColumn(kiriMatrix* matrix, const int32_t* frames, int32_t count, c
     for (int32_t e = 0; e < rows; ++e) {
         Target<Size>(scaled + Size * e) = Source<Size>(J + (ptrdiff_t)stride * e + Size * b).unaryExpr(Times(-k[e]));
     }
-    Product product = { nullptr, nullptr, scaled, Size, stride, Size, Size, Size, rows };
     for (int32_t a = 0; a < count; ++a) {
         int32_t row = matrix->order.data[frames[a]];
-        if (row >= column) {
-            product.out = BlockOf(matrix, FindBlock(matrix, row, column));
-            product.a = J + Size * a;
-            SubtractProduct(matrix, product);
+        if (row < column) {
+            continue;
+        }
+        double* out = BlockOf(matrix, FindBlock(matrix, row, column));
+#if KIRI_RUNTIME_AVX
+        if (Size == 6 && matrix->usesAvx) {
+            SubtractBlockByAvx(out, J + Size * a, stride, scaled, rows);
+            continue;
+        }
+#endif
+        SubtractProduct(matrix, { out, J + Size * a, scaled, Size, stride, Size, Size, Size, rows });
+    }
+}
+
+template <int Size>
+void AddForces(const int32_t* frames, int32_t count, const double* J, const double* pulls, int32_t rows, double* forces)
+{
+    for (int32_t e = 0; e < rows; ++e) {
+        for (int32_t m = 0; m < count; ++m, J += Size) {
+            Target<Size>(forces + (ptrdiff_t)Size * frames[m]) += Source<Size>(J).unaryExpr(Times(pulls[e]));
         }
     }
 }
@@ -327,6 +349,12 @@ extern "C" void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames,
                      [=](auto size) { AddSquareColumn<size.value>(matrix, frames, frameCount, part, k + e, some, b); });
         }
     }
+}
+
+extern "C" void kiriMatrix_AddForces(const kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
+                                     const double* pulls, int32_t rows, double* forces)
+{
+    WithSize(matrix, [=](auto size) { AddForces<size.value>(frames, frameCount, J, pulls, rows, forces); });
 }
 
 /* ---- Factorisation ---- */

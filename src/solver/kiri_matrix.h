@@ -105,6 +105,10 @@ void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block);
 void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* k, int32_t rows);
 
+/* Adds J^T pulls to the forces, `size` numbers a frame. J is as above. */
+void kiriMatrix_AddForces(const kiriMatrix* matrix, const int32_t* frames, int32_t frameCount, const double* J,
+                          const double* pulls, int32_t rows, double* forces);
+
 /* Factors the matrix. If rounding makes a pivot negative, adds a few units in the last place to the diagonal first.
    Returns false if a pivot is still not positive. */
 bool kiriMatrix_Factor(kiriMatrix* matrix);
