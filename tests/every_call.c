@@ -38,7 +38,7 @@ static const float from[2] = { 0.02f, 0.03f }, to[2] = { 0.99f, 0.97f }, vector[
                    seamLines[2][4] = { { 1.0f, 0.4f, 1.0f, 0.6f }, { 0.0f, 0.4f, 0.0f, 0.6f } };
 static const kiriBudget budget = { 0, 30, 0, 0 };
 static const kiriWind wind = { { 1.0f, 0.5f, 0.2f }, 1.2f, 1.1f, 0.1f };
-static const kiriTearing tearing = { 200.0f, { 1.0f, 0.5f }, 2.0f, 1.0f, 3 };
+static const kiriTearing tearing = { 200.0f, 1e6f, { 1.0f, 0.5f }, 2.0f, 1.0f, 3 };
 static const kiriFold fold = { { 0.0f, 0.3f }, { 1.0f, 0.3f }, 1e-3f, 0.5f, 0.0f };
 
 /* What Stand_Start makes for all stands: a save and a snapshot of the world before its cuts. */

@@ -140,6 +140,7 @@ static void ReadWind(Fuzz* fuzz, kiriWind* wind)
 static void ReadTearing(Fuzz* fuzz, kiriTearing* tearing)
 {
     tearing->toughness = FuzzBytes_Float(&fuzz->bytes, 0.0f, 100.0f);
+    tearing->strength = 0.3f * tearing->toughness * tearing->toughness;
     tearing->grain[0] = FuzzBytes_Float(&fuzz->bytes, -1.0f, 1.0f);
     tearing->grain[1] = FuzzBytes_Float(&fuzz->bytes, -1.0f, 1.0f);
     tearing->grainRatio = FuzzBytes_Float(&fuzz->bytes, 0.0f, 8.0f);

@@ -408,6 +408,7 @@ static void Rip(Storm* storm)
     kiriSheet sheet = Storm_AnySheet(storm);
     kiriTearing tearing = { 0 };
     tearing.toughness = toughness[Storm_Random(storm, 3)];
+    tearing.strength = 100.0f * tearing.toughness;
     tearing.grain[0] = Storm_Between(storm, -1.0f, 1.0f);
     tearing.grain[1] = Storm_Between(storm, -1.0f, 1.0f);
     tearing.grainRatio = Storm_Between(storm, 1.0f, 4.0f);

@@ -139,6 +139,13 @@ TEST(Materials)
     assert_int_equal(kiriGetMaterial(-1, &material), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetMaterial(KIRI_MATERIAL_COUNT, &material), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriGetMaterial(0, NULL), KIRI_ERROR_ARGUMENT);
+    kiriTearing tearing;
+    for (int32_t preset = -1; preset <= KIRI_MATERIAL_COUNT; ++preset) {
+        kiriResult result = kiriGetTearing(preset, &tearing);
+        assert_true(result == (preset < 0 || preset == KIRI_MATERIAL_COUNT ? KIRI_ERROR_ARGUMENT : KIRI_OK));
+        assert_true(result != KIRI_OK || (tearing.toughness >= 1e4f && tearing.strength >= 1e7f));
+    }
+    assert_true(kiriGetTearing(0, NULL) == KIRI_ERROR_ARGUMENT && tearing.maxTips == 0);
 }
 
 /* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth:

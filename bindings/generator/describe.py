@@ -27,6 +27,7 @@ PARAMETERS = {
     "kiriFitBudget.budget": {"direction": "inout"},
     "kiriSheet_IsAwake.awake": {"flag": True},
     "kiriGetMaterial.preset": {"enum": "kiriMaterialPreset"},
+    "kiriGetTearing.preset": {"enum": "kiriMaterialPreset"},
     "kiriGetQuality.preset": {"enum": "kiriQualityPreset"},
     "kiriGetSetup.preset": {"enum": "kiriSetupPreset"},
     "kiriGetStageName.stage": {"enum": "kiriStage"},

@@ -848,10 +848,13 @@ type PieceMesh struct {
 
 // How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
 // goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its
-// tip.
+// tip. Where a mean tension over a distance of frames exceeds the strength, a tear begins at the nearest border, one
+// at a time.
 type Tearing struct {
 	// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
 	Toughness float32
+	// Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored
+	Strength float32
 	// direction in the rest plane along which it tears; 0, 0: none
 	Grain [2]float32
 	// toughness across the grain, relative to along it; below 1: 1
@@ -2468,6 +2471,22 @@ func (s Sheet) Slice(blade [12]float32) (Cut, error) {
 	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
+var poolGetTearing pool[struct {
+	tearing Tearing
+}]
+
+// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+func GetTearing(preset MaterialPreset) (Tearing, error) {
+	var made0 Tearing
+	block := poolGetTearing.take()
+	result := C.kiriGetTearing(C.int32_t(preset), (*C.kiriTearing)(unsafe.Pointer(&block.tearing)))
+	answer := poolGetTearing.give(block)
+	if err := failure(nil, "GetTearing", result, false); err != nil {
+		return made0, err
+	}
+	return answer.tearing, nil
+}
+
 // Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
 func (s Sheet) SetTearing(tearing *Tearing) error {
 	if err := s.World.check(); err != nil {
@@ -3452,6 +3471,7 @@ var functions = map[string]string{
 	"kiriCut_Extend":                  "Cut.Extend",
 	"kiriCut_End":                     "Cut.End",
 	"kiriSheet_Slice":                 "Sheet.Slice",
+	"kiriGetTearing":                  ".GetTearing",
 	"kiriSheet_SetTearing":            "Sheet.SetTearing",
 	"kiriSheet_GetTearing":            "Sheet.Tearing",
 	"kiriSheet_SetTearLine":           "Sheet.SetTearLine",

@@ -304,13 +304,14 @@ static const Struct PIECE_MESH = { "PieceMesh", (int)sizeof(kiriPieceMesh), 4, P
 
 static const Field TEARING_FIELDS[] = {
     { "toughness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, toughness), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "strength", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, strength), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "grain", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriTearing, grain), 2, 0, 0, 0, CLASS_NONE, NULL },
     { "grain_ratio", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, grainRatio), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "max_speed", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, maxSpeed), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "max_tips", TYPE_INT32, KIND_INT, (int)offsetof(kiriTearing, maxTips), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct TEARING = { "Tearing", (int)sizeof(kiriTearing), 5, TEARING_FIELDS, NULL, NULL };
+static const Struct TEARING = { "Tearing", (int)sizeof(kiriTearing), 6, TEARING_FIELDS, NULL, NULL };
 
 static const Field FRAME_STATE_FIELDS[] = {
     { "rest_point", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFrameState, restPoint), 2, 0, 0, 0, CLASS_NONE, NULL },
@@ -1590,6 +1591,20 @@ static const Parameter SHEET_SLICE_PARAMETERS[] = {
     { "cut", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_CUT, NULL, NULL },
 };
 
+static const Argument KIRI_GET_TEARING_ARGUMENTS[] = {
+    { "preset", KIND_INT, CLASS_NONE },
+};
+
+static int64_t Call_kiriGetTearing(void* const* a)
+{
+    return kiriGetTearing(*(int32_t*)a[0], a[1]);
+}
+
+static const Parameter KIRI_GET_TEARING_PARAMETERS[] = {
+    { "preset", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "tearing", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &TEARING, NULL },
+};
+
 static const Argument SHEET_SET_TEARING_ARGUMENTS[] = {
     { "tearing", KIND_DICTIONARY, CLASS_NONE },
 };
@@ -2352,6 +2367,7 @@ const Method METHODS[] = {
     { CLASS_CUT, "extend", "kiriCut_Extend", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, CUT_EXTEND_ARGUMENTS, 4, CUT_EXTEND_PARAMETERS, Call_kiriCut_Extend, NULL },
     { CLASS_CUT, "end", "kiriCut_End", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, CUT_END_PARAMETERS, Call_kiriCut_End, NULL },
     { CLASS_SHEET, "slice", "kiriSheet_Slice", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_SLICE_ARGUMENTS, 4, SHEET_SLICE_PARAMETERS, Call_kiriSheet_Slice, NULL },
+    { CLASS_KIRI, "get_tearing", "kiriGetTearing", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, KIRI_GET_TEARING_ARGUMENTS, 2, KIRI_GET_TEARING_PARAMETERS, Call_kiriGetTearing, NULL },
     { CLASS_SHEET, "set_tearing", "kiriSheet_SetTearing", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_TEARING_ARGUMENTS, 3, SHEET_SET_TEARING_PARAMETERS, Call_kiriSheet_SetTearing, NULL },
     { CLASS_SHEET, "get_tearing", "kiriSheet_GetTearing", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_TEARING_PARAMETERS, Call_kiriSheet_GetTearing, NULL },
     { CLASS_SHEET, "set_tear_line", "kiriSheet_SetTearLine", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, SHEET_SET_TEAR_LINE_ARGUMENTS, 5, SHEET_SET_TEAR_LINE_PARAMETERS, Call_kiriSheet_SetTearLine, NULL },

@@ -916,10 +916,14 @@ export class PieceMesh {
 }
 
 /** How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch, goes
- *  on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip. */
+ *  on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip.
+ *  Where a mean tension over a distance of frames exceeds the strength, a tear begins at the nearest border, one at a
+ *  time. */
 export class Tearing {
     /** J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
     toughness: number;
+    /** Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored */
+    strength: number;
     /** direction in the rest plane along which it tears; 0, 0: none */
     grain: number[];
     /** toughness across the grain, relative to along it; below 1: 1 */
@@ -933,6 +937,8 @@ export class Tearing {
 export interface TearingGiven {
     /** J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
     toughness?: number;
+    /** Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored */
+    strength?: number;
     /** direction in the rest plane along which it tears; 0, 0: none */
     grain?: ArrayLike<number>;
     /** toughness across the grain, relative to along it; below 1: 1 */
@@ -1288,6 +1294,9 @@ export function getSetup(preset: SetupPreset, width: number, height: number, int
 
 /** Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 export function fillRectangle(width: number, height: number, columns: number, rows: number): { restPositions: Float32Array, indices: Int32Array };
+
+/** Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset. */
+export function getTearing(preset: MaterialPreset, into?: Tearing): Tearing;
 
 /** A world, empty at first. Destroy it when it is done with: its memory is not JavaScript's. */
 export class World {

@@ -85,7 +85,8 @@ export const layouts = {
         upper: 100, frames: 112, vertices: 116, triangles: 120, collisionPoints: 124, crumb: 128, asleep: 132 } },
     kiriPieceMesh: { size: 28, fields: { vertices: 0, triangles: 4, indices: 8, collisionPoints: 12, vertexCount: 16,
         triangleCount: 20, collisionPointCount: 24 } },
-    kiriTearing: { size: 24, fields: { toughness: 0, grain: 4, grainRatio: 12, maxSpeed: 16, maxTips: 20 } },
+    kiriTearing: { size: 28, fields: { toughness: 0, strength: 4, grain: 8, grainRatio: 16, maxSpeed: 20, maxTips: 24
+        } },
     kiriFrameState: { size: 92, fields: { restPoint: 0, position: 8, rotation: 20, velocity: 56, angularVelocity: 68,
         area: 80, mass: 84, held: 88 } },
     kiriWind: { size: 24, fields: { velocity: 0, density: 12, drag: 16, lift: 20 } },
@@ -1045,6 +1046,7 @@ function readPieceMesh(o, at, world) {
 
 export class Tearing {
     toughness = 0;
+    strength = 0;
     grain = [0, 0];
     grainRatio = 0;
     maxSpeed = 0;
@@ -1053,31 +1055,35 @@ export class Tearing {
 
 function readTearing(o, at, world) {
     o.toughness = F32[(at) >> 2];
-    fill(F32, (at + 4) >> 2, o.grain);
-    o.grainRatio = F32[(at + 12) >> 2];
-    o.maxSpeed = F32[(at + 16) >> 2];
-    o.maxTips = I32[(at + 20) >> 2];
+    o.strength = F32[(at + 4) >> 2];
+    fill(F32, (at + 8) >> 2, o.grain);
+    o.grainRatio = F32[(at + 16) >> 2];
+    o.maxSpeed = F32[(at + 20) >> 2];
+    o.maxTips = I32[(at + 24) >> 2];
     return o;
 }
 
-const fieldsOfTearing = new Set(["toughness", "grain", "grainRatio", "maxSpeed", "maxTips"]);
+const fieldsOfTearing = new Set(["toughness", "strength", "grain", "grainRatio", "maxSpeed", "maxTips"]);
 
 function writeTearing(o, at, world) {
     known(o, fieldsOfTearing, "Tearing");
     if (o.toughness !== undefined) {
         F32[(at) >> 2] = o.toughness;
     }
+    if (o.strength !== undefined) {
+        F32[(at + 4) >> 2] = o.strength;
+    }
     if (o.grain !== undefined) {
-        put("Float32Array", at + 4, o.grain, 2, "grain");
+        put("Float32Array", at + 8, o.grain, 2, "grain");
     }
     if (o.grainRatio !== undefined) {
-        F32[(at + 12) >> 2] = o.grainRatio;
+        F32[(at + 16) >> 2] = o.grainRatio;
     }
     if (o.maxSpeed !== undefined) {
-        F32[(at + 16) >> 2] = o.maxSpeed;
+        F32[(at + 20) >> 2] = o.maxSpeed;
     }
     if (o.maxTips !== undefined) {
-        I32[(at + 20) >> 2] = o.maxTips;
+        I32[(at + 24) >> 2] = o.maxTips;
     }
 }
 
@@ -1589,6 +1595,14 @@ export function fillRectangle(width, height, columns, rows) {
     } finally {
         release();
     }
+}
+
+export function getTearing(preset, into = new Tearing()) {
+    const $result = wasm.kiriGetTearing(preset, scratch);
+    if ($result < 0) {
+        fail(null, $result, "getTearing");
+    }
+    return readTearing(into, scratch, null);
 }
 
 export class World extends WorldBase {
@@ -2332,7 +2346,7 @@ export class Sheet extends Thing {
 
     setTearing(tearing) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 24);
+        U8.fill(0, scratch, scratch + 28);
         writeTearing(tearing, scratch, this.world);
         const $result = wasm.kiriSheet_SetTearing($world, this.id, scratch);
         if ($result < 0) {

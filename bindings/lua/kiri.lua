@@ -99,7 +99,7 @@ struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float d
 struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; };
 struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; };
 struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; };
-struct kiriTearing { float toughness; float grain[2]; float grainRatio; float maxSpeed; int32_t maxTips; };
+struct kiriTearing { float toughness; float strength; float grain[2]; float grainRatio; float maxSpeed; int32_t maxTips; };
 struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; };
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
@@ -190,6 +190,7 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, float factor);
@@ -679,7 +680,7 @@ structs.kiriHit = {fields = {restPoint = 2, position = 3, normal = 3, distance =
 structs.kiriPointState = {fields = {position = 3, normal = 3, velocity = 3, frame = "id"}}
 structs.kiriPieceState = {fields = {area = "number", mass = "number", center = 3, momentum = 3, angularMomentum = 3, lower = 3, upper = 3, frames = "number", vertices = "number", triangles = "number", collisionPoints = "number", crumb = "number", asleep = "number"}}
 structs.kiriPieceMesh = {fields = {vertices = {item = "int32_t", count = "vertexCount", width = 1}, triangles = {item = "int32_t", count = "triangleCount", width = 1}, indices = {item = "int32_t", count = "triangleCount", width = 3}, collisionPoints = {item = "int32_t", count = "collisionPointCount", width = 1}, vertexCount = "number", triangleCount = "number", collisionPointCount = "number"}}
-structs.kiriTearing = {fields = {toughness = "number", grain = 2, grainRatio = "number", maxSpeed = "number", maxTips = "number"}}
+structs.kiriTearing = {fields = {toughness = "number", strength = "number", grain = 2, grainRatio = "number", maxSpeed = "number", maxTips = "number"}}
 structs.kiriFrameState = {fields = {restPoint = 2, position = 3, rotation = 9, velocity = 3, angularVelocity = 3, area = "number", mass = "number", held = "number"}}
 structs.kiriWind = {fields = {velocity = 3, density = "number", drag = "number", lift = "number"}}
 structs.kiriPinDef = {fields = {cookie = "number", restPoint = 2, target = 3, stiffness = "number", breakForce = "number", obstacle = "id"}, default = "kiriDefaultPinDef"}
@@ -1440,6 +1441,14 @@ function Sheet:slice(blade)
     local result = C.kiriSheet_Slice(world.c, self.id, vector(1, blade, 12), out.Cut)
     if result < 0 then fail(world, "Sheet:slice", result, true) end
     return handle(world, out.Cut[0], "Cut")
+end
+
+--- Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+function kiri.getTearing(preset, tearing)
+    tearing = tearing or new.kiriTearing()
+    local result = C.kiriGetTearing(preset, tearing)
+    if result < 0 then fail(nil, "getTearing", result, false) end
+    return tearing
 end
 
 --- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.

@@ -660,14 +660,19 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 /* ---- Tear ------------------------------------------------------------------------------------------------------- */
 
 /* How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch, goes on
-   across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip. */
+   across the tension where the sheet would set more energy free than the tear takes. Two frames go with its tip. Where a
+   mean tension over a distance of frames exceeds the strength, a tear begins at the nearest border, one at a time. */
 typedef struct kiriTearing {
     float toughness;  /* J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear */
+    float strength;   /* Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored */
     float grain[2];   /* direction in the rest plane along which it tears; 0, 0: none */
     float grainRatio; /* toughness across the grain, relative to along it; below 1: 1 */
     float maxSpeed;   /* m/s in the rest plane, 0 or more; 0: no limit but the distance above */
     int32_t maxTips;  /* tips that tear in a tick, 0 or more; 0: 8. Others wait */
 } kiriTearing;
+
+/* Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset. */
+KIRI_API kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
 
 /* Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS. */
 KIRI_API kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);

@@ -13,6 +13,10 @@
 #define ROUNDED 4.0      /* lattice steps: a tip this near to a lip is on it */
 #define LINE_REACH 2.0  /* snap distances: a tip this near to a tear line is on it */
 #define STRESS_SHARE 3.0 /* spacings: the stress ahead opens a crack of about this length */
+#define OWN_REACH 1.0    /* spacings around a site: the mean stress there is compared with the strength */
+#define STRONG_REACH 0.3 /* times toughness E / strength^2: the mean over a half disc of a crack that just tears */
+#define FIRST_STEP 0.5   /* spacings: length of a new tear */
+#define TIP_REACH 2.0    /* spacings from a tip within which no other tear begins */
 
 bool kiriTears_AreGrowing(const kiriSheetData* sheet)
 {
@@ -182,7 +186,7 @@ bool kiriTears_Measure(kiriSheetData* sheet)
         !kiriArray_Reserve(sheet->memory, &tears->regions, sheet->frames.count)) {
         return false;
     }
-    if (tears->found.count > 0) {
+    if (tears->found.count > 0 || sheet->settings.tearing.strength > 0.0f) {
         MeasurePulls(sheet);
     }
     return true;
@@ -306,25 +310,50 @@ static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
 
 /* ---- Direction --------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean membrane stress over a half disc ahead, relative to Young's modulus. */
+/* Returns the membrane stress of a strain, times a weight, relative to Young's modulus. */
+static kiriTensor StressOf(const kiriTensor* strain, double nu, double weight)
+{
+    double w = weight / (1.0 - nu * nu), trace = nu * (strain->uu + strain->vv);
+    KIRI_ASSERT(nu >= 0.0 && nu < 1.0);
+    return (kiriTensor){ w * ((1.0 - nu) * strain->uu + trace), w * (1.0 - nu) * strain->uv,
+                         w * ((1.0 - nu) * strain->vv + trace) };
+}
+
+/* Returns the mean membrane stress over a half disc ahead, relative to Young's modulus. along 0: over the disc. */
 static kiriTensor StressAhead(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 along, int32_t piece, double reach)
 {
     double nu = sheet->settings.material.poissonsRatio, mass = 0.0;
     kiriTensor sum = { 0.0, 0.0, 0.0 };
     KIRI_EACH_INDEX(f, sheet->tears.regions) {
         kiriVec2 off = kiriVec2_Sub(sheet->frames.data[f].site.at, at);
-        const kiriTensor* strain = &sheet->tears.regions.data[f].bent;
         if (sheet->layout.framePiece.data[f] == piece && kiriVec2_Dot(off, along) >= 0.0 &&
             kiriVec2_Dot(off, off) < reach * reach) {
-            double w = sheet->frames.data[f].mass / (1.0 - nu * nu), trace = nu * (strain->uu + strain->vv);
-            sum.uu += w * ((1.0 - nu) * strain->uu + trace);
-            sum.uv += w * (1.0 - nu) * strain->uv;
-            sum.vv += w * ((1.0 - nu) * strain->vv + trace);
+            kiriTensor stress = StressOf(&sheet->tears.regions.data[f].bent, nu, sheet->frames.data[f].mass);
+            sum = (kiriTensor){ sum.uu + stress.uu, sum.uv + stress.uv, sum.vv + stress.vv };
             mass += sheet->frames.data[f].mass;
         }
     }
     double scale = mass > 0.0 ? 1.0 / mass : 0.0;
     return (kiriTensor){ scale * sum.uu, scale * sum.uv, scale * sum.vv };
+}
+
+/* Returns the largest principal stress. */
+static double LargestStress(const kiriTensor* stress)
+{
+    double half = 0.5 * (stress->uu - stress->vv);
+    return 0.5 * (stress->uu + stress->vv) + sqrt(half * half + stress->uv * stress->uv);
+}
+
+/* Returns the mean stress over a reach, relative to the strength. The least reach is the one over which the mean ahead of a crack
+   is the strength when the crack sets enough energy free: so short cracks tear at their strength, and long ones at their
+   toughness (Taylor 2007, theory of critical distances). */
+static double Load(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 along, int32_t piece, double reach)
+{
+    double young = sheet->settings.material.youngsModulus, strength = sheet->settings.tearing.strength;
+    KIRI_ASSERT(strength > 0.0 && reach > 0.0);
+    double least = STRONG_REACH * sheet->settings.tearing.toughness * young / (strength * strength);
+    kiriTensor stress = StressAhead(sheet, at, along, piece, kiriMax(reach, least));
+    return young * kiriMax(LargestStress(&stress), 0.0) / strength;
 }
 
 /* Turns a unit vector by an angle of which `half` is the tangent of the half. */
@@ -374,24 +403,20 @@ static double CrossedAt(const kiriMeshData* mesh, kiriVec2 a, kiriVec2 b, kiriVe
     return part > ROUNDED * mesh->step / sqrt(square) ? part : 1.0;
 }
 
-/* Returns the part of the way from a tip that is free of lips, outline, and tear lines where the tip is not; 1: all. */
-static double FreePart(const kiriSheetData* sheet, const kiriTearTip* tip, kiriVec2 way)
+/* Returns the part of a way that is free of lips and outline, but for those that end at a vertex; 1: all. */
+static double FreePart(const kiriSheetData* sheet, kiriVec2 from, kiriVec2 way, int32_t vertex)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    kiriVec2 from = kiriMesh_Local(mesh, tip->point);
+    kiriLatticePoint start = kiriMesh_Snap(mesh, from), end = kiriMesh_Snap(mesh, kiriVec2_Add(from, way));
     double part = 1.0;
-    KIRI_ASSERT_HAS(mesh->vertices, tip->vertex);
-    kiriNearby around = kiriNearby_Begin(&mesh->squares, tip->point, kiriMesh_Snap(mesh, kiriVec2_Add(from, way)), 0.0);
+    kiriNearby around = kiriNearby_Begin(&mesh->squares, start, end, 0.0);
     for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
-            if (IsTornEdge(mesh, h) && kiriMesh_Tail(mesh, h) != tip->vertex && kiriMesh_Head(mesh, h) != tip->vertex) {
+            if (IsTornEdge(mesh, h) && kiriMesh_Tail(mesh, h) != vertex && kiriMesh_Head(mesh, h) != vertex) {
                 kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
                 part = kiriMin(CrossedAt(mesh, a, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), from, way), part);
             }
         }
-    }
-    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
-        part = IsOn(sheet, line, from) ? part : kiriMin(CrossedAt(mesh, line->from, line->to, from, way), part);
     }
     return part;
 }
@@ -467,10 +492,13 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     double spacing = kiriTears_Spacing(sheet, piece);
     KIRI_ASSERT(most > 0.0 && spacing > 0.0);
     kiriTensor stress = StressAhead(sheet, at, tip->along, piece, REACH * spacing);
-    double half = 0.5 * (stress.uu - stress.vv), root = sqrt(half * half + stress.uv * stress.uv);
-    double largest = kiriMax(0.5 * (stress.uu + stress.vv) + root, 0.0);
+    double largest = kiriMax(LargestStress(&stress), 0.0);
     /* The measure fails where commits left strains between frames that are not at rest: then the stress bounds it. */
     double opens = OpenedBy(largest, spacing, &sheet->settings.material), release = ReleaseAt(sheet, tip, at, spacing);
+    if (sheet->settings.tearing.strength > 0.0f) {
+        double load = Load(sheet, at, tip->along, piece, REACH * spacing);
+        release = kiriMax(release, load * load * TakenAlong(sheet, tip->along));
+    }
     Way way = { { 0.0, 0.0 }, kiriMax(release, opens), TakenAlong(sheet, tip->along), most };
     FollowLines(sheet, at, tip->along, release, &stress, spacing, &way);
     *along = tip->along;
@@ -483,7 +511,60 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     bool isFree = way.along.x == 0.0 && way.along.y == 0.0;
     *along = isFree ? AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, turns) : way.along;
     kiriVec2 to = kiriVec2_Scale(step, *along);
-    double part = FreePart(sheet, tip, to), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
+    double part = FreePart(sheet, at, to, tip->vertex), least = LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
+    KIRI_EACH(const kiriTearLine, line, sheet->tearLines) {
+        part = IsOn(sheet, line, at) ? part : kiriMin(CrossedAt(&sheet->mesh, line->from, line->to, at, to), part);
+    }
     KIRI_ASSERT(part > 0.0 && part <= 1.0);
     return part < 1.0 || step >= least ? kiriVec2_AddScaled(at, part, to) : at;
+}
+
+/* ---- New tears --------------------------------------------------------------------------------------------------- */
+
+/* Returns the frame around which the mean stress exceeds the strength most, or KIRI_NONE. Tips that are near go on instead. */
+static int32_t FindLoaded(const kiriSheetData* sheet)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    double most = 1.0, strength = sheet->settings.tearing.strength / (double)sheet->settings.material.youngsModulus;
+    int32_t found = KIRI_NONE;
+    KIRI_EACH_INDEX(f, sheet->tears.regions) {
+        const kiriFrameData* frame = &sheet->frames.data[f];
+        int32_t piece = sheet->layout.framePiece.data[f];
+        kiriTensor own = StressOf(&sheet->tears.regions.data[f].bent, sheet->settings.material.poissonsRatio, 1.0);
+        if (LargestStress(&own) > strength && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece])) {
+            double spacing = kiriTears_Spacing(sheet, piece), near = TIP_REACH * spacing;
+            double load = Load(sheet, frame->site.at, kiriVec2_Make(0.0, 0.0), piece, OWN_REACH * spacing);
+            KIRI_EACH(const kiriTearTip, tip, sheet->tears.found) {
+                load = kiriVec2_Distance(kiriMesh_Local(mesh, tip->point), frame->center) > near ? load : 0.0;
+            }
+            bool isMore = load > most && kiriMesh_Locate(mesh, kiriMesh_Snap(mesh, frame->center)) != KIRI_NONE;
+            found = isMore ? f : found;
+            most = isMore ? load : most;
+        }
+    }
+    return found;
+}
+
+/* Begins at the nearest lip across the largest tension, or, if lips are over a spacing away, inside. */
+bool kiriTears_FindStart(const kiriSheetData* sheet, double most, kiriVec2* from, kiriVec2* to)
+{
+    int32_t frame = FindLoaded(sheet);
+    if (frame == KIRI_NONE) {
+        return false;
+    }
+    const kiriFrameData* loaded = &sheet->frames.data[frame];
+    int32_t piece = sheet->layout.framePiece.data[frame];
+    double spacing = kiriTears_Spacing(sheet, piece), step = kiriMin(FIRST_STEP * spacing, most);
+    kiriTensor stress = StressAhead(sheet, loaded->site.at, kiriVec2_Make(0.0, 0.0), piece, OWN_REACH * spacing);
+    double tension = LargestStress(&stress);
+    kiriVec2 u = { stress.uu - tension, stress.uv }, v = { stress.uv, stress.vv - tension }; /* both lie across it, or are 0 */
+    kiriVec2 across = kiriVec2_Normalize(kiriVec2_Dot(u, u) > kiriVec2_Dot(v, v) ? u : v);
+    across = kiriVec2_Dot(across, across) > 0.5 ? across : kiriVec2_Make(1.0, 0.0);
+    double ahead = FreePart(sheet, loaded->center, kiriVec2_Scale(spacing, across), KIRI_NONE);
+    double behind = FreePart(sheet, loaded->center, kiriVec2_Scale(-spacing, across), KIRI_NONE);
+    across = ahead < behind ? kiriVec2_Scale(-1.0, across) : across; /* the lip behind is the nearer one */
+    double back = ahead == 1.0 && behind == 1.0 ? 0.5 * step : spacing * kiriMin(ahead, behind);
+    *from = kiriVec2_AddScaled(loaded->center, -back, across);
+    *to = kiriVec2_AddScaled(*from, kiriMin(step, back + spacing * kiriMax(ahead, behind)), across);
+    return step >= LEAST_STEP * sheet->settings.snap * sheet->mesh.step;
 }

@@ -33,6 +33,10 @@ bool kiriTears_Measure(kiriSheetData* sheet);
    direction. */
 kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, double most, kiriVec2* along);
 
+/* Finds where a new tear begins in this tick, at most this long (m): where the stress exceeds the strength most. False:
+   nowhere. */
+bool kiriTears_FindStart(const kiriSheetData* sheet, double most, kiriVec2* from, kiriVec2* to);
+
 KIRI_C_END
 
 #endif

@@ -51,6 +51,23 @@ kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
     return KIRI_OK;
 }
 
+/* Toughness: orders of magnitude of tear tests. Strength: paper and foil as above (1100-O: 90 MPa); card: between 45 and
+   20 MPa, along and across, assumed; rubber: 22 to 32 MPa (Ashby); cloth: 15 kN/m, as of light cotton, assumed. */
+kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing)
+{
+    static const float given[][2] = { [KIRI_MATERIAL_PAPER] = { 1e4f, 4e7f },  [KIRI_MATERIAL_COTTON] = { 4e4f, 3e7f },
+                                      [KIRI_MATERIAL_RUBBER] = { 1e4f, 2.2e7f }, [KIRI_MATERIAL_FOIL] = { 1e4f, 9e7f },
+                                      [KIRI_MATERIAL_CARD] = { 1.5e4f, 3e7f } };
+    if (preset < 0 || preset >= KIRI_MATERIAL_COUNT || tearing == NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    KIRI_CLEAR(tearing);
+    const float* values = given[preset < KIRI_MATERIAL_SILK ? preset : KIRI_MATERIAL_COTTON];
+    tearing->toughness = values[0];
+    tearing->strength = values[1];
+    return KIRI_OK;
+}
+
 /* Points of the front that `make accuracy` measures (tests/sweep.h has the scenes): no setting of the strip is more
    accurate at the same cost on a grid as coarse; and none of the square by more than a hundredth of the error, with
    half as many frames along. One Newton step in each of many substeps beats many steps in few. */

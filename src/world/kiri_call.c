@@ -200,6 +200,7 @@ static STRUCT(WindStruct, kiriWind, 0, NULL, {
 
 static STRUCT(TearingStruct, kiriTearing, 0, NULL, {
     FLOATS_IN(toughness, FROM_0),
+    FLOATS_IN(strength, FROM_0),
     FLOATS_IN(grain, ANY_FINITE),
     FLOATS_IN(grainRatio, FROM_0),
     FLOATS_IN(maxSpeed, FROM_0),

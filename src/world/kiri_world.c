@@ -9,6 +9,7 @@
 #include "../sheet/kiri_tear.h"
 
 #define RESTING 0.5 /* s: a tear that does not go on for this long ends */
+#define CALM 0.05    /* s: no tear begins by itself while another one goes on, which may unload the sheet */
 #define TIPS 8       /* that tear at a time, if the host names no number */
 #define LOOKS 4      /* tips measured in a tick, for each that may tear */
 
@@ -161,8 +162,8 @@ kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetDat
 
 /* ---- Tears ---- */
 
-/* Adds a point to a tear; null: begins one at the tip. */
-static kiriResult GoOn(kiriWorld* world, kiriSheetData* sheet, const kiriTearTip* tip, kiriCutData* cut, kiriVec2 to,
+/* Adds a point to a tear; null: begins one. */
+static kiriResult GoOn(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cut, kiriVec2 from, kiriVec2 to,
                        kiriVec2 along)
 {
     if (!kiriArray_ReserveMore(&world->memory, &world->events, 1) ||
@@ -174,7 +175,7 @@ static kiriResult GoOn(kiriWorld* world, kiriSheetData* sheet, const kiriTearTip
         if (result != KIRI_OK) {
             return result;
         }
-        kiriWorld_QueuePoint(world, cut, kiriMesh_Local(&sheet->mesh, tip->point), true);
+        kiriWorld_QueuePoint(world, cut, from, true);
         kiriWorld_AddEvent(world, KIRI_EVENT_TEAR_BEGAN, sheet)->cut = cut->id;
         world->newEvents += 1;
     }
@@ -216,9 +217,17 @@ static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt, kiri
         tip.along = cut != NULL ? cut->tears : tip.along;
         kiriVec2 along, to = kiriTear_Next(sheet, &tip, most, &along), from = kiriMesh_Local(&sheet->mesh, tip.point);
         if (to.x != from.x || to.y != from.y) {
-            result = GoOn(world, sheet, &tip, cut, to, along);
+            result = GoOn(world, sheet, cut, from, to, along);
             left -= 1;
         }
+    }
+    bool mayStart = tearing->strength > 0.0f && result == KIRI_OK;
+    KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
+        mayStart &= !kiriCut_IsTear(cut) || cut->rests > CALM;
+    }
+    kiriVec2 from, to;
+    if (mayStart && kiriTears_FindStart(sheet, most, &from, &to)) {
+        result = GoOn(world, sheet, NULL, from, to, kiriVec2_Normalize(kiriVec2_Sub(to, from)));
     }
     kiriMotion_Return(sheet);
     return result;

@@ -871,6 +871,15 @@ namespace Kiri
                 World.CheckStatic(Native.kiriFillRectangle(width, height, columns, rows, restPositionsRows, indicesRows), "Library.FillRectangle");
             }
         }
+
+        /// <summary>Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another
+        /// preset.</summary>
+        public static Tearing GetTearing(MaterialPreset preset)
+        {
+            var tearingValue = new Tearing();
+            World.CheckStatic(Native.kiriGetTearing((int)preset, &tearingValue), "Library.GetTearing");
+            return tearingValue;
+        }
     }
 
     public unsafe partial struct Sheet : IEquatable<Sheet>

@@ -1088,12 +1088,15 @@ namespace Kiri
 
     /// <summary>How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
     /// goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with
-    /// its tip.</summary>
+    /// its tip. Where a mean tension over a distance of frames exceeds the strength, a tear begins at the nearest
+    /// border, one at a time.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Tearing
     {
         /// <summary>J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear</summary>
         public float Toughness;
+        /// <summary>Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored</summary>
+        public float Strength;
         /// <summary>direction in the rest plane along which it tears; 0, 0: none</summary>
         public Float2 Grain;
         /// <summary>toughness across the grain, relative to along it; below 1: 1</summary>
@@ -1655,6 +1658,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_Slice(IntPtr world, SheetId sheet, float* blade, CutId* cut);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriGetTearing(int preset, Tearing* tearing);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_SetTearing(IntPtr world, SheetId sheet, Tearing* tearing);

@@ -407,12 +407,13 @@ namespace Kiri.Tests
         {
             Tearing s;
             byte* at = (byte*)&s;
-            Is("Tearing", sizeof(Tearing), 24);
+            Is("Tearing", sizeof(Tearing), 28);
             Is("Tearing.Toughness", (byte*)&s.Toughness - at, 0);
-            Is("Tearing.Grain", (byte*)&s.Grain - at, 4);
-            Is("Tearing.GrainRatio", (byte*)&s.GrainRatio - at, 12);
-            Is("Tearing.MaxSpeed", (byte*)&s.MaxSpeed - at, 16);
-            Is("Tearing.MaxTips", (byte*)&s.MaxTips - at, 20);
+            Is("Tearing.Strength", (byte*)&s.Strength - at, 4);
+            Is("Tearing.Grain", (byte*)&s.Grain - at, 8);
+            Is("Tearing.GrainRatio", (byte*)&s.GrainRatio - at, 16);
+            Is("Tearing.MaxSpeed", (byte*)&s.MaxSpeed - at, 20);
+            Is("Tearing.MaxTips", (byte*)&s.MaxTips - at, 24);
         }
 
         static void FrameState()

@@ -129,6 +129,9 @@ static func get_setup(preset, width, height):
 static func fill_rectangle(width, height, columns, rows):
 	return Native.new().fill_rectangle(width, height, columns, rows)
 
+static func get_tearing(preset):
+	return Native.new().get_tearing(preset)
+
 static func default_pin_def():
 	return Native.new().default_pin_def()
 

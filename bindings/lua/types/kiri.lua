@@ -362,9 +362,11 @@ kiri.DRAW_ALL = 2047
 
 --- How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or a sharp notch,
 --- goes on across the tension where the sheet would set more energy free than the tear takes. Two frames go with its
---- tip.
+--- tip. Where a mean tension over a distance of frames exceeds the strength, a tear begins at the nearest border, one
+--- at a time.
 ---@class kiri.Tearing
 ---@field toughness? number # J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
+---@field strength? number # Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored
 ---@field grain? number[]|ffi.cdata* # direction in the rest plane along which it tears; 0, 0: none
 ---@field grainRatio? number # toughness across the grain, relative to along it; below 1: 1
 ---@field maxSpeed? number # m/s in the rest plane, 0 or more; 0: no limit but the distance above
@@ -1081,6 +1083,12 @@ function Cut:finish() end
 ---@param blade number[]|ffi.cdata*
 ---@return kiri.Cut
 function Sheet:slice(blade) end
+
+--- Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+---@param preset integer
+---@param tearing? kiri.Tearing
+---@return kiri.Tearing
+function kiri.getTearing(preset, tearing) end
 
 --- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
 ---@param tearing? kiri.Tearing

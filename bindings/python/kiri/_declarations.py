@@ -226,6 +226,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriCut_Extend': ('Cut', 'extend'),
  'kiriCut_End': ('Cut', 'end'),
  'kiriSheet_Slice': ('Sheet', 'slice'),
+ 'kiriGetTearing': (None, 'tearing'),
  'kiriSheet_SetTearing': ('Sheet', 'set_tearing'),
  'kiriSheet_GetTearing': ('Sheet', 'tearing'),
  'kiriSheet_SetTearLine': ('Sheet', 'set_tear_line'),
@@ -453,7 +454,7 @@ struct kiriHit { float restPoint[2]; float position[3]; float normal[3]; float d
 struct kiriPointState { float position[3]; float normal[3]; float velocity[3]; kiriFrame frame; };
 struct kiriPieceState { double area; double mass; double center[3]; double momentum[3]; double angularMomentum[3]; float lower[3]; float upper[3]; int32_t frames; int32_t vertices; int32_t triangles; int32_t collisionPoints; int32_t crumb; int32_t asleep; };
 struct kiriPieceMesh { const int32_t* vertices; const int32_t* triangles; const int32_t* indices; const int32_t* collisionPoints; int32_t vertexCount; int32_t triangleCount; int32_t collisionPointCount; };
-struct kiriTearing { float toughness; float grain[2]; float grainRatio; float maxSpeed; int32_t maxTips; };
+struct kiriTearing { float toughness; float strength; float grain[2]; float grainRatio; float maxSpeed; int32_t maxTips; };
 struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float area; float mass; int32_t held; };
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
@@ -544,6 +545,7 @@ kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
+kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, float factor);

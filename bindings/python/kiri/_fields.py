@@ -82,6 +82,7 @@ class SheetSettings(TypedDict, total=False):
 
 class Tearing(TypedDict, total=False):
     toughness: float
+    strength: float
     grain: Any
     grainRatio: float
     maxSpeed: float

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from ._fields import *
 
 __all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality',
- 'default_sheet_def', 'setup', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
+ 'default_sheet_def', 'setup', 'tearing', 'default_pin_def', 'default_seam_def', 'default_obstacle_def',
+ 'default_debug_draw']
 
 
 def version() -> int:
@@ -72,6 +73,15 @@ def setup(preset: int, width: float, height: float) -> Record:
     """
     structure = core.ffi.new('kiriSheetDef*')
     core.check('kiriGetSetup', preset, width, height, structure)
+    return core.record(structure[0])
+
+
+def tearing(preset: int) -> Record:
+    """Returns toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another
+    preset.
+    """
+    structure = core.ffi.new('kiriTearing*')
+    core.check('kiriGetTearing', preset, structure)
     return core.record(structure[0])
 
 

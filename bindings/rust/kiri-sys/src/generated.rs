@@ -764,12 +764,15 @@ pub struct kiriPieceMesh {
 
 /// How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or
 /// a sharp notch, goes on across the tension where the sheet would set more energy free than the
-/// tear takes. Two frames go with its tip.
+/// tear takes. Two frames go with its tip. Where a mean tension over a distance of frames exceeds
+/// the strength, a tear begins at the nearest border, one at a time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriTearing {
     /// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
     pub toughness: f32,
+    /// Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored
+    pub strength: f32,
     /// direction in the rest plane along which it tears; 0, 0: none
     pub grain: [f32; 2],
     /// toughness across the grain, relative to along it; below 1: 1
@@ -1319,6 +1322,9 @@ unsafe extern "C" {
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
     /// that it crosses. The cut is already ended.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
+    /// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails
+    /// on another preset.
+    pub fn kiriGetTearing(preset: i32, tearing: *mut kiriTearing) -> kiriResult;
     /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
     /// than KIRI_MODEL_LINKS.
     pub fn kiriSheet_SetTearing(world: *mut kiriWorld, sheet: kiriSheet, tearing: *const kiriTearing) -> kiriResult;
@@ -1722,13 +1728,14 @@ const _: () = {
     assert!(offset_of!(kiriPieceMesh, vertexCount) == 32);
     assert!(offset_of!(kiriPieceMesh, triangleCount) == 36);
     assert!(offset_of!(kiriPieceMesh, collisionPointCount) == 40);
-    assert!(size_of::<kiriTearing>() == 24);
+    assert!(size_of::<kiriTearing>() == 28);
     assert!(align_of::<kiriTearing>() == 4);
     assert!(offset_of!(kiriTearing, toughness) == 0);
-    assert!(offset_of!(kiriTearing, grain) == 4);
-    assert!(offset_of!(kiriTearing, grainRatio) == 12);
-    assert!(offset_of!(kiriTearing, maxSpeed) == 16);
-    assert!(offset_of!(kiriTearing, maxTips) == 20);
+    assert!(offset_of!(kiriTearing, strength) == 4);
+    assert!(offset_of!(kiriTearing, grain) == 8);
+    assert!(offset_of!(kiriTearing, grainRatio) == 16);
+    assert!(offset_of!(kiriTearing, maxSpeed) == 20);
+    assert!(offset_of!(kiriTearing, maxTips) == 24);
     assert!(size_of::<kiriFrameState>() == 92);
     assert!(align_of::<kiriFrameState>() == 4);
     assert!(offset_of!(kiriFrameState, restPoint) == 0);
@@ -2092,13 +2099,14 @@ const _: () = {
     assert!(offset_of!(kiriPieceMesh, vertexCount) == 16);
     assert!(offset_of!(kiriPieceMesh, triangleCount) == 20);
     assert!(offset_of!(kiriPieceMesh, collisionPointCount) == 24);
-    assert!(size_of::<kiriTearing>() == 24);
+    assert!(size_of::<kiriTearing>() == 28);
     assert!(align_of::<kiriTearing>() == 4);
     assert!(offset_of!(kiriTearing, toughness) == 0);
-    assert!(offset_of!(kiriTearing, grain) == 4);
-    assert!(offset_of!(kiriTearing, grainRatio) == 12);
-    assert!(offset_of!(kiriTearing, maxSpeed) == 16);
-    assert!(offset_of!(kiriTearing, maxTips) == 20);
+    assert!(offset_of!(kiriTearing, strength) == 4);
+    assert!(offset_of!(kiriTearing, grain) == 8);
+    assert!(offset_of!(kiriTearing, grainRatio) == 16);
+    assert!(offset_of!(kiriTearing, maxSpeed) == 20);
+    assert!(offset_of!(kiriTearing, maxTips) == 24);
     assert!(size_of::<kiriFrameState>() == 92);
     assert!(align_of::<kiriFrameState>() == 4);
     assert!(offset_of!(kiriFrameState, restPoint) == 0);

@@ -1667,12 +1667,15 @@ impl<'a> PieceMesh<'a> {
 
 /// How a sheet tears. A tear is a cut whose points the library chooses: the end of an ended cut, or
 /// a sharp notch, goes on across the tension where the sheet would set more energy free than the
-/// tear takes. Two frames go with its tip.
+/// tear takes. Two frames go with its tip. Where a mean tension over a distance of frames exceeds
+/// the strength, a tear begins at the nearest border, one at a time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Tearing {
     /// J/m^2 of torn section, 0 or more; 0 (default): the sheet does not tear
     pub toughness: f32,
+    /// Pa, 0 or more; 0 (default): no tear begins by itself. Without toughness: ignored
+    pub strength: f32,
     /// direction in the rest plane along which it tears; 0, 0: none
     pub grain: [f32; 2],
     /// toughness across the grain, relative to along it; below 1: 1
@@ -1687,6 +1690,7 @@ const _: () = {
     assert!(size_of::<Tearing>() == size_of::<sys::kiriTearing>());
     assert!(align_of::<Tearing>() == align_of::<sys::kiriTearing>());
     assert!(offset_of!(Tearing, toughness) == offset_of!(sys::kiriTearing, toughness));
+    assert!(offset_of!(Tearing, strength) == offset_of!(sys::kiriTearing, strength));
     assert!(offset_of!(Tearing, grain) == offset_of!(sys::kiriTearing, grain));
     assert!(offset_of!(Tearing, grain_ratio) == offset_of!(sys::kiriTearing, grainRatio));
     assert!(offset_of!(Tearing, max_speed) == offset_of!(sys::kiriTearing, maxSpeed));
@@ -2440,6 +2444,17 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
     // SAFETY: pointers are to what is named, and lengths are theirs.
     fail(unsafe { sys::kiriFillRectangle(width, height, columns, rows, rest_positions.as_mut_ptr().cast(), indices.as_mut_ptr().cast()) }, "fill_rectangle")?;
     Ok((rest_positions, indices))
+}
+
+/// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on
+/// another preset.
+pub fn tearing(preset: MaterialPreset) -> Result<Tearing> {
+    let mut tearing = MaybeUninit::<sys::kiriTearing>::uninit();
+    // SAFETY: pointers are to what is named, and lengths are theirs.
+    fail(unsafe { sys::kiriGetTearing(preset as i32, tearing.as_mut_ptr()) }, "tearing")?;
+    // SAFETY: it filled the struct.
+    let tearing = unsafe { tearing.assume_init() };
+    Ok(Tearing::from_raw(&tearing))
 }
 
 impl World {
