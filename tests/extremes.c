@@ -536,7 +536,7 @@ static kiriSheetDef DefOf(const Extreme* e, bool damped)
                               (float)(size * Or(e->thinness, 1e-3)),
                               (float)Or(e->density, 700.0),
                               damped ? 0.5f : 0.0f,
-                              damped ? 2e-3f : 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+                              damped ? 2e-3f : 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.material = material;
     def.frameCount = (int32_t)Or(e->frames, 9);
     def.maxFrames = MOST_FRAMES;

@@ -255,6 +255,7 @@ static void ReadMaterial(Fuzz* fuzz, kiriMaterial* material)
         material->hardening = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.9f);
         material->slack = FuzzBytes_Below(&fuzz->bytes, 3) == 0 ? 0.97f : 0.0f;
         material->detail = FuzzBytes_Below(&fuzz->bytes, 4);
+        material->restCurvature[0] = FuzzBytes_Below(&fuzz->bytes, 4) == 0 ? FuzzBytes_Float(&fuzz->bytes, -9.0f, 9.0f) : 0.0f;
     }
 }
 

@@ -35,7 +35,7 @@ SpecimenDef Specimen_Strip(double young, double poisson, double thickness)
     def.length = 0.2;
     def.width = 0.05;
     def.grid = def.columns = 80;
-    def.material = (kiriMaterial){ (float)young, (float)poisson, (float)thickness, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ (float)young, (float)poisson, (float)thickness, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.model = KIRI_MODEL_LINKS;
     def.iterations = 4;
     def.timeStepping = KIRI_TIME_STEPPING_EULER;

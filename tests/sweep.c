@@ -114,7 +114,7 @@ static bool AddSheet(Scene* scene, const Setting* setting)
     def.vertexCount = (shape->columns + 1) * (shape->rows + 1);
     def.indices = indices;
     def.triangleCount = 2 * shape->columns * shape->rows;
-    def.material = (kiriMaterial){ shape->young, 0.3f, 5e-4f, 1000.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ shape->young, 0.3f, 5e-4f, 1000.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.framePoints = points;
     def.frameCount = def.maxFrames = setting->columns * setting->rows; /* nothing is added */
     def.rigidWeight = 2.0f;

@@ -31,7 +31,7 @@ static Sheet MakeSheet(float length, float width, float square, float poissonsRa
 
 static kiriSheetDef DefOf(const Sheet* s)
 {
-    kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     kiriSheetDef def = DefaultSheet();
     def.material = material;
     def.gridResolution = (int32_t)((s->length > s->width ? s->length : s->width) / s->square + 0.5f);

@@ -9,7 +9,7 @@ static const float Dt = 1.0f / 60.0f;
 static kiriSheetDef StiffDef(void)
 {
     kiriSheetDef def = DefaultSheet();
-    def.material = (kiriMaterial){ 2e9f, 0.3f, 3e-4f, 800.0f, 6.0f, 1e-4f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ 2e9f, 0.3f, 3e-4f, 800.0f, 6.0f, 1e-4f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.sleepSpeed = 0.0f;
     def.fadeTime = 0.0f;
     return def;

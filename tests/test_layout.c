@@ -180,7 +180,7 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     const float middle[3] = { length, 0.5f * width };
     const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, cosf(angle), sinf(angle), 0.0f, -sinf(angle), cosf(angle) };
     kiriSheetDef def = PaperDef(160, 1.0f);
-    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     Host host;
     kiriPin clamps[2];
     double force[3], torque[3];
@@ -216,7 +216,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     const double E = 7.4e8, h = 2e-4, sag = 0.02 * h, L = (double)length;
     const float load[3] = { 0.0f, 0.0f, (float)(-sag * 32.0 * E * h * h / (1000.0 * L * L * L * L)) };
     kiriSheetDef def = PaperDef(80, 1.0f);
-    def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.skinning = skinning;
     Host host;
     kiriPin clamps[2];
@@ -263,7 +263,7 @@ static double ElongationOfStrip(Hold hold, bool isHinged, int32_t count, double 
     host.every = 1000;
     kiriSheetDef def = PaperDef(80, 1.0f);
     double E = hold == HANGS ? 1000.0 * 9.81 * (double)length / (2.0 * (double)strain) : 1e6;
-    def.material = (kiriMaterial){ (float)E, 0.0f, 1e-3f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ (float)E, 0.0f, 1e-3f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.skinning = KIRI_SKINNING_SMOOTH;
     def.frameCount = def.maxFrames = count;
     def.framePoints = points;
@@ -353,7 +353,7 @@ static double ForceOfStrip(float slack, float strain)
 {
     const float length = 0.2f, width = 0.02f;
     kiriSheetDef def = PaperDef(80, 1.0f);
-    def.material = (kiriMaterial){ 7.4e8f, 0.0f, 2e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, slack, 0 };
+    def.material = (kiriMaterial){ 7.4e8f, 0.0f, 2e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, slack, 0, { 0.0f } };
     def.planar = 1;
     HOST(host);
     kiriPin clamps[2];

@@ -29,7 +29,7 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
         points[2 * i + 1] = (float)(v * Width);
     }
     def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-4f, (float)yieldStress,
-                                   (float)hardening, 0.0f, 0 };
+                                   (float)hardening, 0.0f, 0, { 0.0f } };
     def.gridResolution = 80;
     def.frameCount = s->frames = frames;
     def.framePoints = points;
@@ -78,6 +78,14 @@ static double Strip_Bend(Strip* s, double from, double to, int32_t ticks)
 static void Strip_Rest(Strip* s, int32_t ticks)
 {
     Host_Ticks(&s->host, ticks, Dt, 2);
+}
+
+static void Strip_Cut(const Strip* s, double u, double v, double toU, double toV)
+{
+    const float from[2] = { (float)u, (float)v }, to[2] = { (float)toU, (float)toV };
+    kiriCut cut = World_BeginCut(s->host.world, s->sheet, from);
+    OK(kiriCut_Extend(s->host.world, cut, to, 1));
+    OK(kiriCut_End(s->host.world, cut));
 }
 
 static double TurnOf(const kiriFrameState* state)
@@ -169,10 +177,7 @@ TEST(AnyFrames)
         Strip_Rest(&s, 200);
         kiriFrameState end = Strip_End(&s, 0.0, Width);
         double bent = fabs(TurnOf(&end)) / (double)end.restPoint[0];
-        const float from[2] = { -0.001f, 0.0028f }, to[2] = { (float)Length + 0.001f, 0.0033f };
-        kiriCut cut = World_BeginCut(s.host.world, s.sheet, from);
-        OK(kiriCut_Extend(s.host.world, cut, to, 1));
-        OK(kiriCut_End(s.host.world, cut));
+        Strip_Cut(&s, -0.001, 0.0028, Length + 0.001, 0.0033);
         Strip_Rest(&s, 200);
         print_message("layout %u: %.4f of theory;", (unsigned)seed, bent / theory);
         for (int half = 0; half < 2; ++half) {
@@ -228,10 +233,7 @@ TEST(StrongIsElastic)
     for (int k = 0; k < 2; ++k) {
         Strip_Start(&s[k], 9, k == 0 ? 0.0 : 1e12, 0.1, 0);
         Strip_Bend(&s[k], 0.0, 60.0, 20);
-        const float from[2] = { 0.012f, -0.001f }, to[2] = { 0.016f, 0.004f };
-        kiriCut cut = World_BeginCut(s[k].host.world, s[k].sheet, from);
-        OK(kiriCut_Extend(s[k].host.world, cut, to, 1));
-        OK(kiriCut_End(s[k].host.world, cut));
+        Strip_Cut(&s[k], 0.012, -0.001, 0.016, 0.004);
         OK(kiriDestroyPin(s[k].host.world, s[k].clamps[1]));
         Strip_Rest(&s[k], 40);
     }
@@ -255,10 +257,7 @@ TEST(PiecesKeepTheirShape)
     OK(kiriDestroyPin(s.host.world, s.clamps[1]));
     Strip_Rest(&s, 200);
     double theory = Residual(100.0, 0.0), cutAt = 0.0033;
-    const float from[2] = { -0.001f, (float)cutAt }, to[2] = { (float)Length + 0.001f, (float)cutAt };
-    kiriCut cut = World_BeginCut(s.host.world, s.sheet, from);
-    OK(kiriCut_Extend(s.host.world, cut, to, 1));
-    OK(kiriCut_End(s.host.world, cut));
+    Strip_Cut(&s, -0.001, cutAt, Length + 0.001, cutAt);
     Strip_Rest(&s, 120);
     kiriCounts counts = World_Counts(s.host.world, s.sheet);
     assert_int_equal(counts.pieces, 2);
@@ -310,6 +309,38 @@ TEST(MaterialChanges)
     Host_Stop(&s.host);
 }
 
+/* A strip takes its rest curvature wherever its frames are, keeps it in both halves of a cut, and becomes flat again. */
+TEST(RestCurvature)
+{
+    const double rest = 40.0, cutAt = 0.0033;
+    for (uint32_t seed = 0; seed < 5; ++seed) {
+        Strip s;
+        Strip_Start(&s, seed % 2 == 0 ? 9 : 14, seed == 4 ? Yield : 0.0, 0.0, seed);
+        kiriSheetSettings settings = World_Settings(s.host.world, s.sheet);
+        OK(kiriDestroyPin(s.host.world, s.clamps[1]));
+        for (int part = 0; part < 3; ++part) {
+            const double from[3] = { 0.0, 0.0, cutAt }, to[3] = { Width, cutAt, Width };
+            settings.material.restCurvature[0] = (float)rest;
+            OK(kiriSheet_SetSettings(s.host.world, s.sheet, &settings));
+            Strip_Rest(&s, 200);
+            if (part == 1) {
+                Strip_Cut(&s, -0.001, cutAt, Length + 0.001, cutAt);
+                Strip_Rest(&s, 200);
+            }
+            kiriFrameState end = Strip_End(&s, from[part], to[part]);
+            print_message("layout %u: %.4f\n", (unsigned)seed, TurnOf(&end) / (rest * (double)end.restPoint[0]));
+            assert_true(fabs(TurnOf(&end) / (rest * (double)end.restPoint[0]) - 1.0) < (seed == 0 ? 1e-3 : 0.03));
+            assert_true(end.position[2] > 0.0f);
+        }
+        settings.material.restCurvature[0] = 0.0f;
+        OK(kiriSheet_SetSettings(s.host.world, s.sheet, &settings));
+        Strip_Rest(&s, 200);
+        kiriFrameState end = Strip_End(&s, 0.0, Width);
+        assert_true(fabs(TurnOf(&end)) < 1e-3);
+        Host_Stop(&s.host);
+    }
+}
+
 /* Carries all frames of a square sheet, in rows, to a cylinder that is bent along the direction (c, a). Returns its elastic
    energy. */
 static double EnergyOfRoll(double c, double a, double curvature, double yieldStress)
@@ -326,7 +357,8 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
         points[2 * i] = (float)(size * (i % SIDE + 0.5) / SIDE);
         points[2 * i + 1] = (float)(size * (i / SIDE + 0.5) / SIDE);
     }
-    def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-3f, (float)yieldStress, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ (float)Young, 0.0f, (float)Thickness, 2700.0f, 1.0f, 1e-3f, (float)yieldStress,
+                                   0.0f, 0.0f, 0, { 0.0f } };
     def.gridResolution = 48;
     def.frameCount = SIDE * SIDE;
     def.framePoints = points;

@@ -174,7 +174,7 @@ enum { RATIOS = 3, THIN = 3, DIRECTIONS = 8, KINDS = 4 };
 
 static kiriMaterial MaterialOf(double poisson, double thickness)
 {
-    return (kiriMaterial){ 1e9f, (float)poisson, (float)thickness, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    return (kiriMaterial){ 1e9f, (float)poisson, (float)thickness, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
 }
 
 /* Cylinder, dome, saddle (a twist, seen from 45 degrees), and what bends one way and curls the other; as strains: pull

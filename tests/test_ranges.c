@@ -77,6 +77,8 @@ static const Field sheetFields[] = {
     { REAL(kiriSheetDef, material.hardening), { 0.0, 0.5, 0.9999999, END }, { -1e-6, 1.0, NAN, END } },
     { REAL(kiriSheetDef, material.slack), { 0.0, 0.5, 0.9999999, END }, { -1e-6, 1.0, NAN, END } },
     { WHOLE(kiriSheetDef, material.detail), { 0, 1, 16, END }, { -1, 17, END } },
+    { REAL(kiriSheetDef, material.restCurvature[0]), { 0.0, -1e-3, 1e6, END }, { -1.1e6, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, material.restCurvature[2]), { 0.0, -1e6, 50.0, END }, { 1.1e6, NO_NUMBER, END } },
     { WHOLE(kiriSheetDef, gridResolution), { 1, 2, 3, 7, 24, 64, END }, { 0, 4097, -1, END } },
     { REAL(kiriSheetDef, snapDistance), { 0.0, FLT_MIN, 1e-3, 0.1, 2.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { REAL(kiriSheetDef, weldDistance), { 0.0, FLT_MIN, 1e-6, 1e-3, END }, { -1e-6, NO_NUMBER, END } },

@@ -427,7 +427,7 @@ static kiriSheet BentPaper(Host* host, float poissonsRatio)
 {
     Host_Start(host);
     kiriSheetDef def = DefaultSheet();
-    def.material = (kiriMaterial){ 2e9f, poissonsRatio, 2e-4f, 800.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ 2e9f, poissonsRatio, 2e-4f, 800.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.gridResolution = 60;
     def.frameCount = 24;
     def.maxFrames = 60;

@@ -274,7 +274,7 @@ static void Hinge(int32_t frames, float stiffness)
     START_HOST(host);
     host.every = 100;
     kiriSheetDef def = Host_SmallDef();
-    def.material = (kiriMaterial){ 2e9f, 0.0f, 3e-4f, 800.0f, 5.0f, 0.01f, 0.0f, 0.0f, 0.0f, 0 };
+    def.material = (kiriMaterial){ 2e9f, 0.0f, 3e-4f, 800.0f, 5.0f, 0.01f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     def.framePoints = NULL;
     kiriSheet a = Host_AddRectangle(&host, &def, b, b, 8, 8);
     def.position[0] = b;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
 
 /* ---- Links of frames that turn ---- */
 
@@ -362,7 +362,7 @@ TEST(ForcesAreTheSlopeOfTheEnergy)
     static kiriStrainOffset offsets[2 * BODY_FRAMES];
     const double eps = 1e-6;
     uint32_t seed = 37;
-    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 });
+    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } });
     Make(&body, &def, 4, 3, 0.0, 1);
     for (int k = 0; k < body.system.linkCount; ++k) {
         for (int e = 0; e < KIRI_NORMAL_STOP; ++e) {

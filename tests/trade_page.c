@@ -65,7 +65,7 @@ static kiriMaterial MaterialOf(int stuff)
     if (stuff < COUNT(presets)) {
         kiriGetMaterial(presets[stuff], &m);
     } else {
-        m = (kiriMaterial){ 2.6e7f, 0.0f, 1e-4f, 400.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
+        m = (kiriMaterial){ 2.6e7f, 0.0f, 1e-4f, 400.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } };
     }
     m.youngsModulus /= 1.0f - m.poissonsRatio * m.poissonsRatio;
     m.poissonsRatio = m.flexDamping = m.yieldStress = m.hardening = 0.0f;

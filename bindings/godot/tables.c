@@ -89,9 +89,10 @@ static const Field MATERIAL_FIELDS[] = {
     { "hardening", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, hardening), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "slack", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, slack), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "detail", TYPE_INT32, KIND_INT, (int)offsetof(kiriMaterial, detail), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "rest_curvature", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriMaterial, restCurvature), 3, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 10, MATERIAL_FIELDS, NULL, NULL };
+static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 11, MATERIAL_FIELDS, NULL, NULL };
 
 static const Field QUALITY_FIELDS[] = {
     { "frames_along", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, framesAlong), 1, 0, 0, 0, CLASS_NONE, NULL },

@@ -424,6 +424,8 @@ export class Material {
     slack: number;
     /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail: number;
+    /** 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0 */
+    restCurvature: number[];
 }
 /** What a host gives as Material: what is left out is 0. */
 export interface MaterialGiven {
@@ -447,6 +449,8 @@ export interface MaterialGiven {
     slack?: number;
     /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail?: number;
+    /** 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0 */
+    restCurvature?: ArrayLike<number>;
 }
 
 /** Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy). */

@@ -52,20 +52,20 @@ export const layouts = {
         samplesRefreshed: 84, solverIterations: 88, cellsChanged: 92, weightsChanged: 96, verticesChanged: 100,
         pointsChanged: 104, linksChanged: 108, commits: 112, systemsSolved: 116, contacts: 120, sheetPairs: 124,
         largestJump: 128, largestFade: 136 } },
-    kiriMaterial: { size: 40, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
-        flexDamping: 20, yieldStress: 24, hardening: 28, slack: 32, detail: 36 } },
+    kiriMaterial: { size: 52, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
+        flexDamping: 20, yieldStress: 24, hardening: 28, slack: 32, detail: 36, restCurvature: 40 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 228, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
-        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 108, snapDistance: 112,
-        weldDistance: 116, frameCount: 120, frameLength: 124, accuracy: 128, framePoints: 132, maxFrames: 136,
-        rigidWeight: 140, rigidArea: 144, crumbArea: 148, friction: 152, contactThickness: 156, groups: 160,
-        touchesSheets: 164, selfContact: 168, collisionPoints: 172, iterations: 176, sleepSpeed: 180, model: 184,
-        skinning: 188, planar: 192, timeStepping: 196, fadeTime: 200, normals: 204, paper: 208 } },
-    kiriSheetSettings: { size: 96, fields: { cookie: 0, material: 4, maxFrames: 44, crumbArea: 48, friction: 52,
-        contactThickness: 56, groups: 60, touchesSheets: 64, selfContact: 68, iterations: 72, sleepSpeed: 76,
-        skinning: 80, timeStepping: 84, fadeTime: 88, normals: 92 } },
+    kiriSheetDef: { size: 240, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 120, snapDistance: 124,
+        weldDistance: 128, frameCount: 132, frameLength: 136, accuracy: 140, framePoints: 144, maxFrames: 148,
+        rigidWeight: 152, rigidArea: 156, crumbArea: 160, friction: 164, contactThickness: 168, groups: 172,
+        touchesSheets: 176, selfContact: 180, collisionPoints: 184, iterations: 188, sleepSpeed: 192, model: 196,
+        skinning: 200, planar: 204, timeStepping: 208, fadeTime: 212, normals: 216, paper: 220 } },
+    kiriSheetSettings: { size: 108, fields: { cookie: 0, material: 4, maxFrames: 56, crumbArea: 60, friction: 64,
+        contactThickness: 68, groups: 72, touchesSheets: 76, selfContact: 80, iterations: 84, sleepSpeed: 88,
+        skinning: 92, timeStepping: 96, fadeTime: 100, normals: 104 } },
     kiriFold: { size: 28, fields: { from: 0, to: 8, stiffness: 16, restAngle: 20, yieldMoment: 24 } },
     kiriFoldState: { size: 48, fields: { fold: 0, angle: 32, length: 40 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
@@ -350,6 +350,7 @@ export class Material {
     hardening = 0;
     slack = 0;
     detail = 0;
+    restCurvature = [0, 0, 0];
 }
 
 function readMaterial(o, at, world) {
@@ -363,11 +364,12 @@ function readMaterial(o, at, world) {
     o.hardening = F32[(at + 28) >> 2];
     o.slack = F32[(at + 32) >> 2];
     o.detail = I32[(at + 36) >> 2];
+    fill(F32, (at + 40) >> 2, o.restCurvature);
     return o;
 }
 
 const fieldsOfMaterial = new Set(["youngsModulus", "poissonsRatio", "thickness", "density", "airDamping",
-    "flexDamping", "yieldStress", "hardening", "slack", "detail"]);
+    "flexDamping", "yieldStress", "hardening", "slack", "detail", "restCurvature"]);
 
 function writeMaterial(o, at, world) {
     known(o, fieldsOfMaterial, "Material");
@@ -400,6 +402,9 @@ function writeMaterial(o, at, world) {
     }
     if (o.detail !== undefined) {
         I32[(at + 36) >> 2] = o.detail;
+    }
+    if (o.restCurvature !== undefined) {
+        put("Float32Array", at + 40, o.restCurvature, 3, "restCurvature");
     }
 }
 
@@ -507,32 +512,32 @@ function readSheetDef(o, at, world) {
     fill(F32, (at + 44) >> 2, o.axisV);
     fill(F32, (at + 56) >> 2, o.velocity);
     readMaterial(o.material, at + 68, world);
-    o.gridResolution = I32[(at + 108) >> 2];
-    o.snapDistance = F32[(at + 112) >> 2];
-    o.weldDistance = F32[(at + 116) >> 2];
-    o.frameCount = I32[(at + 120) >> 2];
-    o.frameLength = F32[(at + 124) >> 2];
-    o.accuracy = F32[(at + 128) >> 2];
+    o.gridResolution = I32[(at + 120) >> 2];
+    o.snapDistance = F32[(at + 124) >> 2];
+    o.weldDistance = F32[(at + 128) >> 2];
+    o.frameCount = I32[(at + 132) >> 2];
+    o.frameLength = F32[(at + 136) >> 2];
+    o.accuracy = F32[(at + 140) >> 2];
     o.framePoints = null;
-    o.maxFrames = I32[(at + 136) >> 2];
-    o.rigidWeight = F32[(at + 140) >> 2];
-    o.rigidArea = F32[(at + 144) >> 2];
-    o.crumbArea = F32[(at + 148) >> 2];
-    o.friction = F32[(at + 152) >> 2];
-    o.contactThickness = F32[(at + 156) >> 2];
-    o.groups = U32[(at + 160) >> 2];
-    o.touchesSheets = I32[(at + 164) >> 2] !== 0;
-    o.selfContact = I32[(at + 168) >> 2] !== 0;
-    o.collisionPoints = I32[(at + 172) >> 2];
-    o.iterations = I32[(at + 176) >> 2];
-    o.sleepSpeed = F32[(at + 180) >> 2];
-    o.model = I32[(at + 184) >> 2];
-    o.skinning = I32[(at + 188) >> 2];
-    o.planar = I32[(at + 192) >> 2] !== 0;
-    o.timeStepping = I32[(at + 196) >> 2];
-    o.fadeTime = F32[(at + 200) >> 2];
-    o.normals = I32[(at + 204) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 208, world);
+    o.maxFrames = I32[(at + 148) >> 2];
+    o.rigidWeight = F32[(at + 152) >> 2];
+    o.rigidArea = F32[(at + 156) >> 2];
+    o.crumbArea = F32[(at + 160) >> 2];
+    o.friction = F32[(at + 164) >> 2];
+    o.contactThickness = F32[(at + 168) >> 2];
+    o.groups = U32[(at + 172) >> 2];
+    o.touchesSheets = I32[(at + 176) >> 2] !== 0;
+    o.selfContact = I32[(at + 180) >> 2] !== 0;
+    o.collisionPoints = I32[(at + 184) >> 2];
+    o.iterations = I32[(at + 188) >> 2];
+    o.sleepSpeed = F32[(at + 192) >> 2];
+    o.model = I32[(at + 196) >> 2];
+    o.skinning = I32[(at + 200) >> 2];
+    o.planar = I32[(at + 204) >> 2] !== 0;
+    o.timeStepping = I32[(at + 208) >> 2];
+    o.fadeTime = F32[(at + 212) >> 2];
+    o.normals = I32[(at + 216) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 220, world);
     return o;
 }
 
@@ -571,83 +576,83 @@ function writeSheetDef(o, at, world) {
         writeMaterial(o.material, at + 68, world);
     }
     if (o.gridResolution !== undefined) {
-        I32[(at + 108) >> 2] = o.gridResolution;
+        I32[(at + 120) >> 2] = o.gridResolution;
     }
     if (o.snapDistance !== undefined) {
-        F32[(at + 112) >> 2] = o.snapDistance;
+        F32[(at + 124) >> 2] = o.snapDistance;
     }
     if (o.weldDistance !== undefined) {
-        F32[(at + 116) >> 2] = o.weldDistance;
+        F32[(at + 128) >> 2] = o.weldDistance;
     }
     if (o.frameCount !== undefined) {
-        I32[(at + 120) >> 2] = o.frameCount;
+        I32[(at + 132) >> 2] = o.frameCount;
     }
     if (o.frameLength !== undefined) {
-        F32[(at + 124) >> 2] = o.frameLength;
+        F32[(at + 136) >> 2] = o.frameLength;
     }
     if (o.accuracy !== undefined) {
-        F32[(at + 128) >> 2] = o.accuracy;
+        F32[(at + 140) >> 2] = o.accuracy;
     }
     if (o.framePoints != null) {
-        U32[(at + 132) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
-        I32[(at + 120) >> 2] = o.framePoints.length / 2;
+        U32[(at + 144) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
+        I32[(at + 132) >> 2] = o.framePoints.length / 2;
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 136) >> 2] = o.maxFrames;
+        I32[(at + 148) >> 2] = o.maxFrames;
     }
     if (o.rigidWeight !== undefined) {
-        F32[(at + 140) >> 2] = o.rigidWeight;
+        F32[(at + 152) >> 2] = o.rigidWeight;
     }
     if (o.rigidArea !== undefined) {
-        F32[(at + 144) >> 2] = o.rigidArea;
+        F32[(at + 156) >> 2] = o.rigidArea;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 148) >> 2] = o.crumbArea;
+        F32[(at + 160) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 152) >> 2] = o.friction;
+        F32[(at + 164) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 156) >> 2] = o.contactThickness;
+        F32[(at + 168) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 160) >> 2] = o.groups;
+        U32[(at + 172) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 164) >> 2] = o.touchesSheets;
+        I32[(at + 176) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 168) >> 2] = o.selfContact;
+        I32[(at + 180) >> 2] = o.selfContact;
     }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 172) >> 2] = o.collisionPoints;
+        I32[(at + 184) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 176) >> 2] = o.iterations;
+        I32[(at + 188) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 180) >> 2] = o.sleepSpeed;
+        F32[(at + 192) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 184) >> 2] = o.model;
+        I32[(at + 196) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 188) >> 2] = o.skinning;
+        I32[(at + 200) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 192) >> 2] = o.planar;
+        I32[(at + 204) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 196) >> 2] = o.timeStepping;
+        I32[(at + 208) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 200) >> 2] = o.fadeTime;
+        F32[(at + 212) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 204) >> 2] = o.normals;
+        I32[(at + 216) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 208, world);
+        writePaperOptions(o.paper, at + 220, world);
     }
 }
 
@@ -672,19 +677,19 @@ export class SheetSettings {
 function readSheetSettings(o, at, world) {
     o.cookie = U32[(at) >> 2];
     readMaterial(o.material, at + 4, world);
-    o.maxFrames = I32[(at + 44) >> 2];
-    o.crumbArea = F32[(at + 48) >> 2];
-    o.friction = F32[(at + 52) >> 2];
-    o.contactThickness = F32[(at + 56) >> 2];
-    o.groups = U32[(at + 60) >> 2];
-    o.touchesSheets = I32[(at + 64) >> 2] !== 0;
-    o.selfContact = I32[(at + 68) >> 2] !== 0;
-    o.iterations = I32[(at + 72) >> 2];
-    o.sleepSpeed = F32[(at + 76) >> 2];
-    o.skinning = I32[(at + 80) >> 2];
-    o.timeStepping = I32[(at + 84) >> 2];
-    o.fadeTime = F32[(at + 88) >> 2];
-    o.normals = I32[(at + 92) >> 2] !== 0;
+    o.maxFrames = I32[(at + 56) >> 2];
+    o.crumbArea = F32[(at + 60) >> 2];
+    o.friction = F32[(at + 64) >> 2];
+    o.contactThickness = F32[(at + 68) >> 2];
+    o.groups = U32[(at + 72) >> 2];
+    o.touchesSheets = I32[(at + 76) >> 2] !== 0;
+    o.selfContact = I32[(at + 80) >> 2] !== 0;
+    o.iterations = I32[(at + 84) >> 2];
+    o.sleepSpeed = F32[(at + 88) >> 2];
+    o.skinning = I32[(at + 92) >> 2];
+    o.timeStepping = I32[(at + 96) >> 2];
+    o.fadeTime = F32[(at + 100) >> 2];
+    o.normals = I32[(at + 104) >> 2] !== 0;
     return o;
 }
 
@@ -701,43 +706,43 @@ function writeSheetSettings(o, at, world) {
         writeMaterial(o.material, at + 4, world);
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 44) >> 2] = o.maxFrames;
+        I32[(at + 56) >> 2] = o.maxFrames;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 48) >> 2] = o.crumbArea;
+        F32[(at + 60) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 52) >> 2] = o.friction;
+        F32[(at + 64) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 56) >> 2] = o.contactThickness;
+        F32[(at + 68) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 60) >> 2] = o.groups;
+        U32[(at + 72) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 64) >> 2] = o.touchesSheets;
+        I32[(at + 76) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 68) >> 2] = o.selfContact;
+        I32[(at + 80) >> 2] = o.selfContact;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 72) >> 2] = o.iterations;
+        I32[(at + 84) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 76) >> 2] = o.sleepSpeed;
+        F32[(at + 88) >> 2] = o.sleepSpeed;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 80) >> 2] = o.skinning;
+        I32[(at + 92) >> 2] = o.skinning;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 84) >> 2] = o.timeStepping;
+        I32[(at + 96) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 88) >> 2] = o.fadeTime;
+        F32[(at + 100) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 92) >> 2] = o.normals;
+        I32[(at + 104) >> 2] = o.normals;
     }
 }
 
@@ -1834,11 +1839,11 @@ export class World extends WorldBase {
         try {
             wasm.kiriDefaultSheetDef(scratch);
             writeSheetDef(def, scratch, this);
-            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 232);
+            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 240);
             if ($result < 0) {
                 fail(this, $result, "World.createSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 240) >> 2]);
         } finally {
             release();
         }
@@ -1851,11 +1856,11 @@ export class World extends WorldBase {
                 wasm.kiriDefaultSheetDef(scratch);
                 writeSheetDef(def, scratch, this);
             }
-            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 232);
+            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 240);
             if ($result < 0) {
                 fail(this, $result, "World.createRectangle");
             }
-            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 240) >> 2]);
         } finally {
             release();
         }
@@ -1871,11 +1876,11 @@ export class World extends WorldBase {
             for (let i = 0; i < folds.length; i++) {
                 writeFold(folds[i], $folds + 28 * i, this);
             }
-            const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 232);
+            const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 240);
             if ($result < 0) {
                 fail(this, $result, "World.createFoldedSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 232) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 240) >> 2]);
         } finally {
             release();
         }
@@ -2017,7 +2022,7 @@ export class Sheet extends Thing {
 
     setSettings(settings) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 96);
+        U8.fill(0, scratch, scratch + 108);
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {

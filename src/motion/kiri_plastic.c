@@ -180,11 +180,42 @@ static kiriVec2 CurvatureOf(const kiriBentStrain* strain, const kiriLink* link)
     return kiriLink_FromEdge(link, v);
 }
 
+#define MOST_REST 1.5 /* rad: angle of a link at rest; beyond, strains move to the fold */
+
+/* Returns the rest curvature of a material times the normal of a link. Strains count bending to the back. */
+static kiriVec2 RestCurvatureOf(const kiriMaterial* material, const kiriLink* link)
+{
+    const float* rest = material->restCurvature;
+    kiriVec2 v = AlongTensor((kiriTensor){ -rest[0], -rest[2], -rest[1] }, link->normal);
+    double angle = link->length * kiriVec2_Length(v);
+    return angle > MOST_REST ? kiriVec2_Scale(MOST_REST / angle, v) : v;
+}
+
+/* Returns a curvature times the normal of a link, as strains that are folded as `by` is. */
+static kiriBentStrain BendTo(kiriVec2 curvature, const kiriLink* link, const kiriBentStrain* by)
+{
+    curvature = kiriVec2_Scale(link->length, curvature);
+    kiriVec2 parts = { kiriVec2_Dot(curvature, link->normal), kiriVec2_Dot(curvature, link->tangent) };
+    return Refold(kiriLink_AlongEdge(link, parts), by);
+}
+
+kiriPlastic kiriPlastic_AtRest(const kiriMaterial* material, const kiriLink* link)
+{
+    const kiriBentStrain flat = { 1.0, 0.0, 0.0 };
+    return (kiriPlastic){ BendTo(RestCurvatureOf(material, link), link, &flat), 0.0 };
+}
+
+void kiriPlastic_Rest(kiriPlastic* plastic, const kiriMaterial* before, const kiriMaterial* now, const kiriLink* link)
+{
+    kiriVec2 change = kiriVec2_Sub(RestCurvatureOf(now, link), RestCurvatureOf(before, link));
+    plastic->part = BendTo(kiriVec2_Add(CurvatureOf(&plastic->part, link), change), link, &plastic->part);
+}
+
 /* Adds a link to its two regions. */
-static void AddLink(kiriPlasticRegion* regions, const kiriLink* link, const kiriBentStrain* strain, double reach)
+static void AddLink(kiriPlasticRegion* regions, const kiriLink* link, kiriVec2 curvature, double reach)
 {
     double w = link->width * link->length;
-    kiriVec2 n = kiriVec2_Scale(w, link->normal), curvature = CurvatureOf(strain, link);
+    kiriVec2 n = kiriVec2_Scale(w, link->normal);
     KIRI_TIMES(end, 2) {
         kiriPlasticRegion* region = &regions[end == 0 ? link->i : link->j];
         region->matrix.uu += n.x * link->normal.x;
@@ -226,7 +257,7 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
     linkCount = kiriLink_CountBorders(links, linkCount);
     KIRI_TIMES(k, linkCount) {
-        AddLink(regions, &links[k], &yields[k].elastic, 0.0);
+        AddLink(regions, &links[k], CurvatureOf(&yields[k].elastic, &links[k]), 0.0);
     }
     SolveRegions(regions, frameCount);
     KIRI_TIMES(k, linkCount) {
@@ -245,7 +276,7 @@ bool kiriPlastics_Reserve(kiriPlastics* plastics, kiriMemory* memory, int32_t li
 }
 
 void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_t linkCount, int32_t oldCount,
-                           int32_t frameCount, const kiriOwnership* ownership, double extent)
+                           int32_t frameCount, const kiriOwnership* ownership, const kiriMaterial* material, double extent)
 {
     kiriPlasticRegion* regions = plastics->regions.data;
     KIRI_ASSERT(frameCount <= plastics->regions.capacity && oldCount <= frameCount);
@@ -253,7 +284,9 @@ void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_
     plastics->regions.count = frameCount;
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
     for (int32_t k = 0, end = kiriLink_CountBorders(links, plastics->links.count); k < end; ++k) {
-        AddLink(regions, &links[k], &plastics->links.data[k].part, plastics->links.data[k].reach);
+        const kiriPlastic* plastic = &plastics->links.data[k];
+        kiriVec2 flowed = kiriVec2_Sub(CurvatureOf(&plastic->part, &links[k]), RestCurvatureOf(material, &links[k]));
+        AddLink(regions, &links[k], flowed, plastic->reach);
     }
     SolveRegions(regions, oldCount);
     for (int32_t f = oldCount; f < frameCount && f < ownership->first.count; ++f) {
@@ -291,7 +324,7 @@ static kiriVec2 MeanCurvature(const kiriPlastics* plastics, int32_t i, int32_t j
 }
 
 void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLink* links, int32_t linkCount,
-                       const int32_t* from)
+                       const int32_t* from, const kiriMaterial* material)
 {
     KIRI_ASSERT(linkCount <= plastics->next.capacity && linkCount <= plastics->links.capacity);
     KIRI_TIMES(k, linkCount) {
@@ -311,14 +344,12 @@ void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLi
         next->reach = 0.5 * (plastics->regions.data[link->i].reach + plastics->regions.data[link->j].reach);
         if (hasOlder) { /* it keeps its difference to the mean */
             const kiriPlastic* older = &plastics->links.data[from[k]];
-            kiriVec2 mean = MeanCurvature(plastics, was->i, was->j, was->normal);
+            kiriVec2 mean = kiriVec2_Add(MeanCurvature(plastics, was->i, was->j, was->normal), RestCurvatureOf(material, was));
             curvature = kiriVec2_Add(curvature, kiriVec2_Sub(CurvatureOf(&older->part, was), mean));
             by = older->part;
             next->reach = older->reach;
         }
-        curvature = kiriVec2_Scale(link->length, curvature);
-        kiriVec2 parts = { kiriVec2_Dot(curvature, link->normal), kiriVec2_Dot(curvature, link->tangent) };
-        next->part = Refold(kiriLink_AlongEdge(link, parts), &by);
+        next->part = BendTo(kiriVec2_Add(curvature, RestCurvatureOf(material, link)), link, &by);
     }
     kiriArray_Swap(&plastics->links, &plastics->next);
     plastics->links.count = linkCount;

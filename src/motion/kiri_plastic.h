@@ -1,4 +1,5 @@
-/* Plastic bending of links. A material with a yield stress keeps a part of its bending, so creases stay. */
+/* Plastic bending of links. A material with a yield stress keeps a part of its bending, so creases stay. A rest curvature
+   is such a part from the start. */
 #ifndef KIRI_PLASTIC_H
 #define KIRI_PLASTIC_H
 
@@ -33,6 +34,12 @@ typedef struct kiriPlastic {
     kiriBentStrain part; /* a part of the link's strain offset; it does not fade */
     double reach;  /* 0 or 1: it never yielded */
 } kiriPlastic;
+
+/* Returns the state of a link that never yielded, of a material with a rest curvature. */
+kiriPlastic kiriPlastic_AtRest(const kiriMaterial* material, const kiriLink* link);
+
+/* Changes a state to another rest curvature. */
+void kiriPlastic_Rest(kiriPlastic* plastic, const kiriMaterial* before, const kiriMaterial* now, const kiriLink* link);
 
 /* A link in one step. Zero: elastic. */
 typedef struct kiriYield {
@@ -81,7 +88,7 @@ typedef struct kiriTensor {
    If all s have one direction, a small addition to m makes the undetermined part of T zero. */
 kiriTensor kiriTensor_Solve(kiriTensor m, const kiriVec2 B[2]);
 
-/* The plastic curvature of a region, fitted to its links. */
+/* The plastic curvature of a region beyond the rest curvature, fitted to its links. */
 typedef struct kiriPlasticRegion {
     kiriTensor bent, matrix; /* 1/m; scratch */
     kiriVec2 by[2];          /* scratch */
@@ -96,7 +103,7 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
 
 /* Plastic states of the links of a sheet. */
 typedef struct kiriPlastics {
-    bool isKept; /* links have states: the material yields, or once did */
+    bool isKept; /* links have states: the material yields or has a rest curvature, or once did */
     KIRI_ARRAY(kiriPlastic) links, next;    /* one a link, if isKept; scratch */
     KIRI_ARRAY(kiriPlasticRegion) regions;  /* scratch: one a frame */
 } kiriPlastics;
@@ -107,12 +114,12 @@ bool kiriPlastics_Reserve(kiriPlastics* plastics, kiriMemory* memory, int32_t li
 /* Fits regions to the links before a commit. Frames from oldCount on are new: they get the mean of the regions from which
    their material comes. Cannot fail. */
 void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_t linkCount, int32_t oldCount,
-                           int32_t frameCount, const kiriOwnership* ownership, double extent);
+                           int32_t frameCount, const kiriOwnership* ownership, const kiriMaterial* material, double extent);
 
 /* Takes the links after the commit. from[k]: the old link that link k goes on from, or KIRI_NONE. Others get the mean
    curvature of their regions. Cannot fail. */
 void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLink* links, int32_t linkCount,
-                       const int32_t* from);
+                       const int32_t* from, const kiriMaterial* material);
 
 /* Returns the state of a link that replaces one of another length. */
 kiriPlastic kiriPlastic_Scaled(const kiriPlastic* plastic, double scale);

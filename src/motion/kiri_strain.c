@@ -859,7 +859,7 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plas
     }
     strainOffsets->strainOffsets.count = linkCount;
     if (plastics->isKept) {
-        kiriPlastics_Take(plastics, old, links, linkCount, strainOffsets->from.data);
+        kiriPlastics_Take(plastics, old, links, linkCount, strainOffsets->from.data, material);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "kiri_build.h"
 #include "kiri_update.h"
+#include "kiri_pin.h"
 #include "kiri_seen.h"
 #include "kiri_sheet_site.h"
 
@@ -68,7 +69,7 @@ void kiriSettings_Apply(kiriSheetData* sheet)
     kiriSurface_SetDetail(&sheet->seen.surface, kiriSettings_Detail(settings));
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
-    sheet->plastics.isKept |= kiriSettings_Yield(settings);
+    sheet->plastics.isKept |= kiriSettings_Bend(settings);
 }
 
 /* ---- Change --------------------------------------------------------------------------------------------------- */
@@ -91,6 +92,20 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     kiriLinks_BeginAgain(&sheet->links);
 }
 
+/* Gives links and clamps another rest curvature. Offsets fade towards it. */
+static void TakeRest(kiriSheetData* sheet, const kiriMaterial* before)
+{
+    const kiriMaterial* now = &sheet->settings.material;
+    const kiriLink* links = sheet->links.links.data;
+    if (memcmp(before->restCurvature, now->restCurvature, sizeof(now->restCurvature)) == 0) {
+        return;
+    }
+    KIRI_TIMES(k, kiriLink_CountBorders(links, sheet->links.links.count)) {
+        kiriPlastic_Rest(&sheet->plastics.links.data[k], before, now, &links[k]);
+    }
+    kiriPins_TakeRest(sheet, before);
+}
+
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
     kiriSheetSettings before = sheet->settings.given, after = *given;
@@ -111,7 +126,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     detail->sweeps = sweeps;
     if (!hasRoom || (looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
-        (kiriSettings_Yield(&next) &&
+        (kiriSettings_Bend(&next) &&
          (!kiriPlastics_Reserve(&sheet->plastics, sheet->memory, sheet->links.links.count, sheet->frames.count) ||
           !kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory, sheet->links.links.count,
                                      sheet->frames.count))) ||
@@ -127,6 +142,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (sheet->plastics.isKept) { /* links that never yielded */
         kiriArray_Extend(&sheet->plastics.links, sheet->links.links.count, 0);
         kiriArray_Extend(&sheet->strainOffsets.strainOffsets, sheet->links.links.count, 0);
+        TakeRest(sheet, &before.material);
     }
     if (!kiriSheet_KeepsStrains(sheet)) { /* without fadeTime links and clamps have no strain offsets (kiri_strain.h) */
         sheet->strainOffsets.strainOffsets.count = 0;

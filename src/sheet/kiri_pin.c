@@ -393,12 +393,26 @@ static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const ki
     }
     kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
     KIRI_CLEAR(&pinned->plastic);
+    if (sheet->plastics.isKept) {
+        kiriClampRow row = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0);
+        pinned->plastic = kiriPlastic_AtRest(&sheet->settings.material, &row.link);
+    }
     older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
     if (older != NULL && sheet->plastics.isKept) {
         double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
         const kiriFrameData* bent = &sheet->frames.data[older->share.frame];
         double before = ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length;
         pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
+    }
+}
+
+void kiriPins_TakeRest(kiriSheetData* sheet, const kiriMaterial* before)
+{
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+            kiriClampRow row = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 1.0);
+            kiriPlastic_Rest(&pinned->plastic, before, &sheet->settings.material, &row.link);
+        }
     }
 }
 

@@ -30,6 +30,9 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet);
    springs their pull, by offsets; these start at zero on other frames. `old`: the previous layout. */
 void kiriPins_Keep(kiriSheetData* sheet, const kiriLayout* old);
 
+/* Gives clamps the rest curvature of the sheet's material. before: the material until now. */
+void kiriPins_TakeRest(kiriSheetData* sheet, const kiriMaterial* before);
+
 /* Fades the offsets of clamps to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
 

@@ -834,7 +834,8 @@ void kiriStage_Commit(kiriSheetData* sheet)
     }
     if (sheet->plastics.isKept) {
         kiriPlastics_Remember(&sheet->plastics, sheet->links.links.data, oldLinks, sheet->frames.count,
-                              u->placing.sites.count, &u->refit.ownership, kiriSheet_Extent(sheet));
+                              u->placing.sites.count, &u->refit.ownership, &sheet->settings.material,
+                              kiriSheet_Extent(sheet));
     }
     CommitFrames(sheet);
     CommitPoints(sheet);

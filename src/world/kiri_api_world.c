@@ -30,16 +30,16 @@
    both diagonals); for jersey the softest tenth, assumed, for the data name no fibres. The plate that bends so and has the
    tensile stiffness 600 N/m (jersey 150), assumed, has the thickness here. Slack: see the manual (sheets). */
 static const kiriMaterial materials[KIRI_MATERIAL_COUNT] = {
-    { 2.92e9f, 0.3f, 1.1e-4f, 727.0f, 1.0f, 2e-3f, 2e7f, 0.2f, 0.0f, 0 },
-    { 1.2e6f, 0.3f, 5e-4f, 400.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.0f, 2 },
-    { 2e6f, 0.49f, 1e-3f, 925.0f, 0.3f, 1e-2f, 0.0f, 0.0f, 0.0f, 0 },
-    { 6.9e10f, 0.33f, 1.6e-5f, 2700.0f, 1.0f, 1e-3f, 3.4e7f, 0.01f, 0.0f, 0 },
-    { 3.3e9f, 0.3f, 4e-4f, 780.0f, 1.0f, 2e-3f, 1.5e7f, 0.15f, 0.0f, 0 },
-    { 2.43e6f, 0.3f, 2.47e-4f, 223.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2 },
-    { 1.59e6f, 0.3f, 3.77e-4f, 318.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2 },
-    { 1.05e6f, 0.3f, 5.71e-4f, 385.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2 },
-    { 7.73e5f, 0.3f, 7.76e-4f, 425.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2 },
-    { 2.96e5f, 0.3f, 5.06e-4f, 316.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2 },
+    { 2.92e9f, 0.3f, 1.1e-4f, 727.0f, 1.0f, 2e-3f, 2e7f, 0.2f, 0.0f, 0, { 0.0f } },
+    { 1.2e6f, 0.3f, 5e-4f, 400.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.0f, 2, { 0.0f } },
+    { 2e6f, 0.49f, 1e-3f, 925.0f, 0.3f, 1e-2f, 0.0f, 0.0f, 0.0f, 0, { 0.0f } },
+    { 6.9e10f, 0.33f, 1.6e-5f, 2700.0f, 1.0f, 1e-3f, 3.4e7f, 0.01f, 0.0f, 0, { 0.0f } },
+    { 3.3e9f, 0.3f, 4e-4f, 780.0f, 1.0f, 2e-3f, 1.5e7f, 0.15f, 0.0f, 0, { 0.0f } },
+    { 2.43e6f, 0.3f, 2.47e-4f, 223.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2, { 0.0f } },
+    { 1.59e6f, 0.3f, 3.77e-4f, 318.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2, { 0.0f } },
+    { 1.05e6f, 0.3f, 5.71e-4f, 385.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2, { 0.0f } },
+    { 7.73e5f, 0.3f, 7.76e-4f, 425.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2, { 0.0f } },
+    { 2.96e5f, 0.3f, 5.06e-4f, 316.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 0.98f, 2, { 0.0f } },
 };
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)

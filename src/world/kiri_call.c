@@ -264,6 +264,7 @@ static STRUCT(MaterialStruct, kiriMaterial, 0, NULL, {
     FLOATS_IN(hardening, WITHIN(0.0, 0.99999994)), /* the last float below 1 */
     FLOATS_IN(slack, WITHIN(0.0, 0.99999994)),
     INTS_IN(detail, WITHIN(0, KIRI_MOST_DETAIL)),
+    FLOATS_IN(restCurvature, WITHIN(-1e6, 1e6)),
 })
 
 /* Members of both kiriSheetSettings and kiriSheetDef. */

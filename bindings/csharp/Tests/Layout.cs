@@ -143,7 +143,7 @@ namespace Kiri.Tests
         {
             Material s;
             byte* at = (byte*)&s;
-            Is("Material", sizeof(Material), 40);
+            Is("Material", sizeof(Material), 52);
             Is("Material.YoungsModulus", (byte*)&s.YoungsModulus - at, 0);
             Is("Material.PoissonsRatio", (byte*)&s.PoissonsRatio - at, 4);
             Is("Material.Thickness", (byte*)&s.Thickness - at, 8);
@@ -154,6 +154,7 @@ namespace Kiri.Tests
             Is("Material.Hardening", (byte*)&s.Hardening - at, 28);
             Is("Material.Slack", (byte*)&s.Slack - at, 32);
             Is("Material.Detail", (byte*)&s.Detail - at, 36);
+            Is("Material.RestCurvature", (byte*)&s.RestCurvature - at, 40);
         }
 
         static void Quality()
@@ -183,7 +184,7 @@ namespace Kiri.Tests
         {
             SheetDef s;
             byte* at = (byte*)&s;
-            Is("SheetDef", sizeof(SheetDef), 256);
+            Is("SheetDef", sizeof(SheetDef), 264);
             Is("SheetDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetDef.restPositions", (byte*)&s.restPositions - at, 8);
             Is("SheetDef.vertexCount", (byte*)&s.vertexCount - at, 16);
@@ -194,54 +195,54 @@ namespace Kiri.Tests
             Is("SheetDef.AxisV", (byte*)&s.AxisV - at, 60);
             Is("SheetDef.Velocity", (byte*)&s.Velocity - at, 72);
             Is("SheetDef.Material", (byte*)&s.Material - at, 84);
-            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 124);
-            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 128);
-            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 132);
-            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 136);
-            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 140);
-            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 144);
-            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 152);
-            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 160);
-            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 164);
-            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 168);
-            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 172);
-            Is("SheetDef.Friction", (byte*)&s.Friction - at, 176);
-            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 180);
-            Is("SheetDef.Groups", (byte*)&s.Groups - at, 184);
-            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 188);
-            Is("SheetDef.SelfContact", (byte*)&s.SelfContact - at, 192);
-            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 196);
-            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 200);
-            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 204);
-            Is("SheetDef.Model", (byte*)&s.Model - at, 208);
-            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 212);
-            Is("SheetDef.Planar", (byte*)&s.Planar - at, 216);
-            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 220);
-            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 224);
-            Is("SheetDef.Normals", (byte*)&s.Normals - at, 228);
-            Is("SheetDef.Paper", (byte*)&s.Paper - at, 232);
+            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 136);
+            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 140);
+            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 144);
+            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 148);
+            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 152);
+            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 156);
+            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 160);
+            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 168);
+            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 172);
+            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 176);
+            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 180);
+            Is("SheetDef.Friction", (byte*)&s.Friction - at, 184);
+            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 188);
+            Is("SheetDef.Groups", (byte*)&s.Groups - at, 192);
+            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 196);
+            Is("SheetDef.SelfContact", (byte*)&s.SelfContact - at, 200);
+            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 204);
+            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 208);
+            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 212);
+            Is("SheetDef.Model", (byte*)&s.Model - at, 216);
+            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 220);
+            Is("SheetDef.Planar", (byte*)&s.Planar - at, 224);
+            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 228);
+            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 232);
+            Is("SheetDef.Normals", (byte*)&s.Normals - at, 236);
+            Is("SheetDef.Paper", (byte*)&s.Paper - at, 240);
         }
 
         static void SheetSettings()
         {
             SheetSettings s;
             byte* at = (byte*)&s;
-            Is("SheetSettings", sizeof(SheetSettings), 96);
+            Is("SheetSettings", sizeof(SheetSettings), 108);
             Is("SheetSettings.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetSettings.Material", (byte*)&s.Material - at, 4);
-            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 44);
-            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 48);
-            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 52);
-            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 56);
-            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 60);
-            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 64);
-            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 68);
-            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 72);
-            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 76);
-            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 80);
-            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 84);
-            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 88);
-            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 92);
+            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 56);
+            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 60);
+            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 64);
+            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 68);
+            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 72);
+            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 76);
+            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 80);
+            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 84);
+            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 88);
+            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 92);
+            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 96);
+            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 100);
+            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 104);
         }
 
         static void Fold()

@@ -805,6 +805,8 @@ pub struct Material {
     pub slack: f32,
     /// sweeps of the detail layer a tick, 0 (off) to 16, see [`Mesh`]. Presets: cloths 2, others 0
     pub detail: i32,
+    /// 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0
+    pub rest_curvature: [f32; 3],
 }
 
 const _: () = {
@@ -820,6 +822,7 @@ const _: () = {
     assert!(offset_of!(Material, hardening) == offset_of!(sys::kiriMaterial, hardening));
     assert!(offset_of!(Material, slack) == offset_of!(sys::kiriMaterial, slack));
     assert!(offset_of!(Material, detail) == offset_of!(sys::kiriMaterial, detail));
+    assert!(offset_of!(Material, rest_curvature) == offset_of!(sys::kiriMaterial, restCurvature));
 };
 
 impl Material {
