@@ -7,14 +7,14 @@ const of = (preset, changes) => ({ ...getMaterial(preset), ...changes });
 /** Made after load(): numbers are the library's. toughness: J/m^2, of what tears. */
 export const makeMaterials = () => ({
     paper: {
-        material: of(MaterialPreset.Paper, { airDamping: 0.6, flexDamping: 2e-3, restCurvature: [4, 4, 0] }), toughness: 1e4,
+        material: of(MaterialPreset.Paper, { airDamping: 0.6, flexDamping: 2e-3, restCurvature: [3, 3, 0] }), toughness: 1e4,
         drawn: 0.5e-3, roughness: 0.92, metalness: 0, rim: 0xf4efe4, print: "paper",
         light: [1, 0.99, 0.95], shade: [0.16, 0.1, 0.07], through: 1,
         sound: { pitch: 3800, width: 0.7, volume: 0.5 },
     },
     /** Of the first task. */
     washi: {
-        material: of(MaterialPreset.Paper, { airDamping: 0.6, flexDamping: 2e-3, restCurvature: [4, 4, 0] }), toughness: 1e4,
+        material: of(MaterialPreset.Paper, { airDamping: 0.6, flexDamping: 2e-3, restCurvature: [3, 3, 0] }), toughness: 1e4,
         drawn: 0.5e-3, roughness: 0.95, metalness: 0, rim: 0xfaf6ee, print: "washi",
         light: [1, 0.99, 0.95], shade: [0.16, 0.1, 0.07], through: 1.3,
         sound: { pitch: 3800, width: 0.7, volume: 0.5 },
