@@ -24,6 +24,14 @@ static void HashPoint(uint64_t* hash, kiriLatticePoint p)
     kiriHash_Pair(hash, p.x, p.y);
 }
 
+/* Adds bytes by FNV-1a. */
+static void HashBytes(uint64_t* hash, const void* data, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; ++i) {
+        kiriHash_Word(hash, ((const unsigned char*)data)[i]);
+    }
+}
+
 static void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
 {
     HashVec2(hash, mesh->origin);
@@ -50,28 +58,6 @@ static void HashSkin(uint64_t* hash, const kiriSkin* skin)
             kiriHash_Double(hash, skin->weights.data[k].value);
         }
     }
-}
-
-static void HashLink(uint64_t* hash, const kiriLink* link)
-{
-    kiriHash_Int32(hash, link->i);
-    kiriHash_Int32(hash, link->j);
-    if (link->fold != 0) {
-        kiriHash_Int32(hash, link->fold);
-    }
-    HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
-    kiriHash_Double(hash, link->outer);
-    kiriHash_Double(hash, link->beyond);
-    kiriHash_Double(hash, link->square);
-    kiriHash_Double(hash, link->lean);
-    HashVec2(hash, link->span);
-    HashVec2(hash, link->normal);
-    HashVec2(hash, link->tangent);
-    HashVec2(hash, link->centroid);
-    HashVec2(hash, link->crossing);
-    HashVec2(hash, link->sum);
-    HashVec2(hash, link->spread[0]);
-    HashVec2(hash, link->spread[1]);
 }
 
 static void HashCorner(uint64_t* hash, const kiriCorner* corner)
@@ -118,9 +104,7 @@ static void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
 {
     HashMesh(hash, &sheet->mesh);
     const kiriLayout* layout = &sheet->layout;
-    for (int32_t i = 0; i < sheet->links.links.count; ++i) {
-        HashLink(hash, &sheet->links.links.data[i]);
-    }
+    HashBytes(hash, sheet->links.links.data, sizeof(kiriLink) * (size_t)sheet->links.links.count);
     for (int32_t i = 0; i < sheet->links.corners.count; ++i) {
         HashCorner(hash, &sheet->links.corners.data[i]);
     }
@@ -137,22 +121,9 @@ static void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
     for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
         kiriHash_Int32(hash, layout->pinFrame.data[i]);
     }
-    for (int32_t k = 0; k < layout->severed.count; ++k) {
-        kiriHash_Int32(hash, layout->severed.data[k].pin);
-        kiriHash_Int32(hash, layout->severed.data[k].link);
-        kiriHash_Double(hash, layout->severed.data[k].part);
-        kiriHash_Double(hash, layout->severed.data[k].held);
-    }
+    HashBytes(hash, layout->severed.data, sizeof(kiriSeveredLink) * (size_t)layout->severed.count);
     for (int32_t k = 0; k < layout->pinShares.count; ++k) {
         HashPinShare(hash, &layout->pinShares.data[k]);
-    }
-}
-
-/* Adds bytes by FNV-1a. */
-static void HashBytes(uint64_t* hash, const void* data, size_t bytes)
-{
-    for (size_t i = 0; i < bytes; ++i) {
-        kiriHash_Word(hash, ((const unsigned char*)data)[i]);
     }
 }
 
