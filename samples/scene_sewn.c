@@ -196,9 +196,9 @@ static bool StartLantern(Scene* scene, const SceneOptions* options)
 }
 
 /* Holds a frame where the sheet is when it is rolled to a part `rolled` of a tube. */
-static void HoldOnTube(Scene* scene, kiriFrame frame, const float rest[2], float rolled, float drop)
+static void HoldOnTube(Scene* scene, float width, kiriFrame frame, const float rest[2], float rolled, float drop)
 {
-    const float size = scene->type->size, length = size * around, s = rest[0] - 0.5f * length;
+    const float size = scene->type->size, length = size * width, s = rest[0] - 0.5f * length;
     float bend = 6.2831853f * (rolled > 1e-3f ? rolled : 1e-3f) / length, c = cosf(bend * s), n = sinf(bend * s);
     const float at[3] = { n / bend, (c - 1.0f) / bend, rest[1] + size * (0.02f - drop) };
     kiriFrame_Hold(scene->world, frame, at, (float[]){ c, -n, 0.0f, 0.0f, 0.0f, 1.0f, -n, -c, 0.0f });
@@ -217,7 +217,7 @@ static void RollLantern(Scene* scene)
         float height = state.restPoint[1] / scene->type->size;
         bool isRim = height < 0.15f || height > 0.85f;
         if (scene->tick <= GLUE || isRim) {
-            HoldOnTube(scene, frames[i], state.restPoint, Scene_Ease(scene->tick, ROLL_FIRST, ROLL_LAST),
+            HoldOnTube(scene, around, frames[i], state.restPoint, Scene_Ease(scene->tick, ROLL_FIRST, ROLL_LAST),
                        height > 0.85f ? drop : 0.0f);
         } else if (scene->tick == GLUE + 1) {
             kiriFrame_Hold(scene->world, frames[i], NULL, NULL);
@@ -245,6 +245,69 @@ const SceneType lanternScene = {
     .look = { { 0.93f, 0.72f, 0.35f }, { 0.86f, 0.30f, 0.22f }, { 0.5f, 0.2f, 0.1f }, 0.0f },
     .start = StartLantern,
     .push = RollLantern,
+};
+
+/* ---- Can: foil is rolled and glued to a tube, and a thumb dents it ------------------------------------------------ */
+
+enum { CAN_COLUMNS = 24, CAN_ROWS = 14, CAN_FRAMES = CAN_COLUMNS * CAN_ROWS, PRESSED = 190, BACK = 230 };
+
+static const float canAround = 1.8f, thumb = 0.1f, thumbHeight = 0.8f;
+
+static bool StartCan(Scene* scene, const SceneOptions* options)
+{
+    float points[2 * CAN_FRAMES];
+    for (int32_t i = 0; i < CAN_FRAMES; i++) {
+        points[2 * i] = canAround * ((float)(i / CAN_ROWS) + 0.5f) / CAN_COLUMNS;
+        points[2 * i + 1] = ((float)(i % CAN_ROWS) + 0.5f) / CAN_ROWS;
+    }
+    kiriSheetDef def = Scene_PlaceSheet(scene, (float[]){ -0.5f * canAround, 0.0f, 0.02f }, (float[]){ 0.0f, 0.0f, 1.0f },
+                                        Preset(KIRI_MATERIAL_FOIL));
+    def.material.thickness = 1e-4f; /* m: of a can */
+    def.frameCount = def.maxFrames = CAN_FRAMES;
+    def.gridResolution = 72;
+    def.iterations = 2;
+    return Scene_MakeRectangle(scene, &def, options, &(Rectangle){ canAround, 1.0f, 72, 40, points }) &&
+           Scene_AddCapsule(scene, (float[]){ 0.0f, 0.3f, thumbHeight }, (float[]){ 0.0f, 0.9f, thumbHeight + 0.25f }, thumb,
+                            UINT32_MAX);
+}
+
+/* Frames are held until the foil is glued, and at both ends, as by lids. */
+static void DentCan(Scene* scene)
+{
+    const float ends[2][2][2] = { { { canAround, 0.0f }, { canAround, 1.0f } }, { { 0.0f, 0.0f }, { 0.0f, 1.0f } } };
+    int32_t count = 0, tick = scene->tick;
+    float in = Scene_Ease(tick + 1, GLUE + 5, PRESSED) - Scene_Ease(tick, GLUE + 5, PRESSED);
+    float out = Scene_Ease(tick + 1, PRESSED, BACK) - Scene_Ease(tick, PRESSED, BACK);
+    kiriFrame frames[CAN_FRAMES];
+    kiriSheet_GetFrames(scene->world, scene->sheet, frames, CAN_FRAMES, &count);
+    for (int32_t i = 0; i < count; i++) {
+        kiriFrameState state;
+        kiriFrame_GetState(scene->world, frames[i], &state);
+        float height = state.restPoint[1] / scene->type->size;
+        if (tick <= GLUE || height < 1.0f / CAN_ROWS) {
+            HoldOnTube(scene, canAround, frames[i], state.restPoint, Scene_Ease(tick, ROLL_FIRST, ROLL_LAST), 0.0f);
+        } else if (tick == GLUE + 1) {
+            kiriFrame_Hold(scene->world, frames[i], NULL, NULL);
+        }
+    }
+    if (tick == GLUE) {
+        Sew(scene, scene->sheet, scene->sheet, ends[0][0], ends[1][0], 2, 0.0f, 0.0f, 1e3f);
+    }
+    float speed = 60.0f * scene->type->size * (0.9f * out - 0.55f * in);
+    kiriObstacle_SetVelocity(scene->world, scene->bodyIds[0], (float[]){ 0.0f, speed, 0.0f }, (float[]){ 0.0f, 0.0f, 0.0f });
+}
+
+const SceneType canScene = {
+    .name = "can",
+    .about = "foil is rolled and glued to a can, and a thumb dents it",
+    .size = 0.12f,
+    .ticks = 270,
+    .substeps = 2,
+    .moments = { 40, 115, 155, 190, 210, 270 },
+    .camera = { { 0.9f, 2.5f, 1.6f }, { 0.0f, -0.15f, 0.5f }, 30.0f },
+    .look = { { 0.80f, 0.82f, 0.85f }, { 0.72f, 0.74f, 0.78f }, { 0.5f, 0.5f, 0.55f }, 0.0f },
+    .start = StartCan,
+    .push = DentCan,
 };
 
 /* ---- Patch: a hole is cut in a curtain, a patch is sewn over it, and a ball pushes ------------------------------- */

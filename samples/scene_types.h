@@ -9,7 +9,7 @@ extern const SceneType spiralScene, kirigamiScene, vortexScene, fallingGuyScene;
 extern const SceneType rubberScene;                                              /* scene_rubber.c */
 extern const SceneType flatScene;                                                /* scene_flat.c */
 extern const SceneType miuraScene, cardScene, craneScene;                        /* scene_fold.c */
-extern const SceneType shirtScene, lanternScene, patchScene, bagScene;           /* scene_sewn.c */
+extern const SceneType shirtScene, lanternScene, canScene, patchScene, bagScene; /* scene_sewn.c */
 extern const SceneType letterScene, stampsScene;                                 /* scene_tear.c */
 
 #endif
