@@ -24,10 +24,7 @@ static void Told_Add(Told* told, const Host* host)
 
 static kiriTearing TearingOf(double toughness)
 {
-    kiriTearing tearing;
-    memset(&tearing, 0, sizeof(tearing));
-    tearing.toughness = (float)toughness;
-    return tearing;
+    return (kiriTearing){ .toughness = (float)toughness };
 }
 
 static void TakeMaterial(kiriMaterial* material, double young, float poisson)
