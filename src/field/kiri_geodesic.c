@@ -308,42 +308,25 @@ void kiriField_Forget(kiriField* field, int32_t cell)
     SetValue(field, (kiriSeed){ cell, KIRI_FAR, KIRI_NONE });
 }
 
-/* True if its seed or a neighbour still gives the cell its value. Every step is longer than nothing, so the cells of a
-   ring cannot support each other. */
-static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell)
+/* Returns true if its seed or a neighbour still gives the cell its value. Every step is longer than nothing, so the cells of
+   a ring cannot support each other. Lists the cells that may have their value from this one, in dirty.data from dirty.count
+   to `end`, which has room for all steps of the cell. */
+static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell, int32_t* end)
 {
     const kiriSeed value = ValueOf(field, cell);
-    if (value.distance > rule->limit) {
-        return false;
-    }
-    int32_t hits = HitsAt(field, rule->grid, cell, EQUAL, value.distance, -1);
+    bool isSupported = false;
+    int32_t hits = HitsAt(field, rule->grid, cell, EQUAL, value.distance, -1) |
+                   HitsAt(field, rule->grid, cell, EQUAL, value.distance, 1);
+    *end = field->dirty.count;
     EACH_HIT(step, rule->grid, cell, hits) {
-        int32_t next = step.cell;
-        if (field->distance.data[next] == value.distance - step.length && ValueOf(field, next).owner == value.owner &&
-            Passes(rule, next)) {
-            return true;
+        int32_t next = step.cell, way = field->distance.data[next] - value.distance;
+        if (way == step.length && (field->marks.data[next] & FIELD_DIRTY) == 0 && ValueOf(field, next).owner == value.owner) {
+            field->dirty.data[(*end)++] = next;
         }
+        isSupported = isSupported || (way == -step.length && ValueOf(field, next).owner == value.owner && Passes(rule, next));
     }
     kiriSeed seed = rule->seed(rule->context, cell);
-    return seed.distance == value.distance && seed.owner == value.owner;
-}
-
-/* Adds the cells that may have their value from this one to the dirty ones. False for memory. */
-static bool AddDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
-{
-    const kiriSeed value = ValueOf(field, cell);
-    int32_t hits = HitsAt(field, rule->grid, cell, EQUAL, value.distance, 1);
-    EACH_HIT(step, rule->grid, cell, hits) {
-        int32_t next = step.cell;
-        if (field->distance.data[next] == value.distance + step.length && ValueOf(field, next).owner == value.owner &&
-            (field->marks.data[next] & FIELD_DIRTY) == 0) {
-            if (!kiriArray_Push(memory, &field->dirty, next)) {
-                return false;
-            }
-            field->marks.data[next] |= FIELD_DIRTY;
-        }
-    }
-    return true;
+    return value.distance <= rule->limit && (isSupported || (seed.distance == value.distance && seed.owner == value.owner));
 }
 
 /* Clears the affected cells: those whose value nothing supports any more. The other values are lengths of ways that
@@ -358,13 +341,19 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
             if (rule->look != NULL) {
                 rule->look(rule->context, cell);
             }
-            bool supported = IsSupported(field, rule, cell);
+            int32_t steps = kiriGrid_GetSteps(rule->grid, cell).end[KIRI_KNIGHT], end;
+            if (!kiriArray_ReserveMore(memory, &field->dirty, steps)) {
+                return KIRI_FAILED;
+            }
+            bool supported = IsSupported(field, rule, cell, &end);
             if (!kiriQuota_Take(quota, !supported || field->checked % 4 == 0)) {
                 return KIRI_MORE;
             }
-            if (((!supported || blocked) && !AddDependents(field, memory, rule, cell)) ||
-                (!supported && !LogValue(field, memory, cell))) {
+            if (!supported && !LogValue(field, memory, cell)) {
                 return KIRI_FAILED;
+            }
+            while ((!supported || blocked) && field->dirty.count < end) {
+                field->marks.data[KIRI_NEXT(field->dirty)] |= FIELD_DIRTY;
             }
             if (!supported) {
                 kiriField_Forget(field, cell);
@@ -403,7 +392,7 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
             return KIRI_MORE;
         }
         if (seeds) {
-            if (rule->look != NULL) {
+            if (rule->look != NULL && field->checked < field->fromCaller) { /* ClearAffected looked at the others */
                 rule->look(rule->context, cell);
             }
             kiriSeed best = NearestFor(field, rule, cell);

@@ -251,7 +251,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid)
 {
     int32_t count = stencil->steps.count, seen = 0;
-    if (!kiriArrays_Resize(memory, count, &stencil->centers, &stencil->shares)) {
+    if (!kiriArray_Resize(memory, &stencil->centers, count) || !kiriArray_Resize(memory, &stencil->shares, count)) {
         return false;
     }
     stencil->split = false;
@@ -272,10 +272,12 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
 /* Gathers the frames with weight in any of the cells, sorted; `columns` says where each frame is. */
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
-    if (!kiriArrays_Reserve(memory, shape->rigid.count, &stencil->columns, &stencil->frames)) {
-        return false;
+    if (stencil->columns.count < shape->rigid.count) {
+        if (!kiriArrays_Reserve(memory, shape->rigid.count, &stencil->columns, &stencil->frames)) {
+            return false;
+        }
+        kiriArray_Extend(&stencil->columns, shape->rigid.count, 0);
     }
-    kiriArray_Extend(&stencil->columns, shape->rigid.count, 0);
     stencil->frames.count = 0;
     KIRI_EACH(const kiriStep, step, stencil->steps) {
         kiriSpan span = shape->spans.data[step->cell];
