@@ -302,7 +302,7 @@ contact: packages-contact
 	$(BUILD)/tests/contact "$(CASE)"
 
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card crane shirt lantern patch bag letter stamps can
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card crane shirt lantern patch bag letter stamps poster weave can
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
 JOIN = $(PYTHON) samples/join.py samples/pictures/$(1).webp 60 10 build/gallery/$(1)/frame_*.png

@@ -15,7 +15,7 @@ static const SceneType* const types[] = {
     &vortexScene, &fallingGuyScene, &rubberScene,   &flatScene,
     &miuraScene,  &cardScene,       &craneScene,    &shirtScene,
     &lanternScene, &patchScene,     &bagScene,      &letterScene,
-    &stampsScene, &canScene,
+    &stampsScene,  &posterScene,    &weaveScene,    &canScene,
 };
 
 const SceneType* Scene_GetType(int32_t index)

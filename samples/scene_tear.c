@@ -7,18 +7,28 @@
 
 enum { PAPER_FRAMES = 96, SHEET_GROUP = 1, HAND_GROUP = 2 };
 
-static bool MakePaper(Scene* scene, const SceneOptions* options, kiriSheetDef* def, float width)
+static bool MakeSheet(Scene* scene, const SceneOptions* options, kiriSheetDef* def, float width, int32_t preset,
+                      float weakness, float grainRatio)
 {
-    const kiriTearing tearing = { .toughness = 1e4f };
-    kiriMaterial paper;
-    kiriGetMaterial(KIRI_MATERIAL_PAPER, &paper);
-    *def = Scene_PlaceSheet(scene, (float[]){ -0.5f * width, 0.0f, 0.9f }, (float[]){ 0.0f, 0.0f, 1.0f }, paper);
+    kiriTearing tearing;
+    kiriMaterial material;
+    kiriGetTearing(preset, &tearing);
+    kiriGetMaterial(preset, &material);
+    tearing.toughness *= weakness;
+    tearing.grain[1] = 1.0f; /* upwards */
+    tearing.grainRatio = grainRatio;
+    *def = Scene_PlaceSheet(scene, (float[]){ -0.5f * width, 0.0f, 0.9f }, (float[]){ 0.0f, 0.0f, 1.0f }, material);
     def->frameCount = PAPER_FRAMES;
     def->gridResolution = 72;
     def->iterations = 4;
     def->groups = SHEET_GROUP;
     return Scene_MakeRectangle(scene, def, options, &(Rectangle){ width, 1.0f, (int32_t)(48.0f * width), 48, NULL }) &&
            kiriSheet_SetTearing(scene->world, scene->sheet, &tearing) == KIRI_OK;
+}
+
+static bool MakePaper(Scene* scene, const SceneOptions* options, kiriSheetDef* def, float width)
+{
+    return MakeSheet(scene, options, def, width, KIRI_MATERIAL_PAPER, 1.0f, 1.0f);
 }
 
 /* A thumb before the sheet and a finger behind it, from a point (u, v) of the sheet to another. */
@@ -216,4 +226,98 @@ const SceneType stampsScene = {
     .print = PrintStamp,
     .start = StartStamps,
     .push = TearStamps,
+};
+
+/* ---- Poster: a hand rips a strip off a wall -------------------------------------------------------------------- */
+
+enum { GLUE_ROWS = 6, GLUE_COLUMNS = 5, RIP = 60, RIP_END = 300 };
+
+static const float posterWidth = 0.8f;
+
+static void PrintPoster(uint8_t* rgb)
+{
+    static const uint8_t sky[3] = { 240, 200, 90 }, sun[3] = { 215, 70, 50 }, sea[3] = { 40, 90, 130 };
+    for (int i = 0; i < PRINT_SIZE * PRINT_SIZE; i++) {
+        float x = ((float)(i % PRINT_SIZE) + 0.5f) / PRINT_SIZE, y = ((float)(i / PRINT_SIZE) + 0.5f) / PRINT_SIZE;
+        float sunX = x - 0.4f, sunY = y - 0.5f;
+        Blend(rgb + 3 * i, y < 0.4f + 0.02f * sinf(40.0f * x) ? sea : sunX * sunX + sunY * sunY < 0.05f ? sun : sky);
+    }
+}
+
+/* Drops of glue hold the poster; those behind the strip break. Two cuts at its upper edge begin the strip. */
+static bool StartPoster(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def;
+    bool fine = MakePaper(scene, options, &def, posterWidth);
+    for (int i = 0; fine && i < GLUE_ROWS * GLUE_COLUMNS; i++) {
+        kiriPinDef pin;
+        kiriPin id;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = scene->type->size * posterWidth * ((float)(i % GLUE_COLUMNS) + 0.5f) / GLUE_COLUMNS;
+        pin.restPoint[1] = scene->type->size * ((float)(i / GLUE_COLUMNS) + 0.5f) / (GLUE_ROWS + 1);
+        pin.target[0] = def.position[0] + pin.restPoint[0];
+        pin.target[2] = def.position[2] + pin.restPoint[1];
+        pin.stiffness = 500.0f;
+        pin.breakForce = i % GLUE_COLUMNS == GLUE_COLUMNS / 2 ? 0.3f : 0.0f; /* N */
+        fine = kiriCreatePin(scene->world, scene->sheet, &pin, &id) == KIRI_OK;
+    }
+    return fine && AddHand(scene, &def, (float[]){ 0.4f, 0.92f }, (float[]){ 0.4f, 1.2f }) &&
+           Scene_AddLine(scene, 0.26f, 1.05f, 0.28f, 0.85f) && Scene_AddLine(scene, 0.54f, 1.05f, 0.52f, 0.85f);
+}
+
+static void RipPoster(Scene* scene)
+{
+    bool isPulling = IsBetween(scene, RIP, RIP_END);
+    MoveHand(scene, 0, isPulling ? (float[]){ 0.0f, -0.004f, -0.0055f } : (float[]){ 0.0f, 0.0f, 0.0f }, 0.0f);
+}
+
+const SceneType posterScene = {
+    .name = "poster",
+    .about = "a hand rips a strip of a poster off a wall",
+    .size = 0.3f,
+    .ticks = 320,
+    .substeps = 2,
+    .firstCut = 10,
+    .lastCut = 50,
+    .moments = { 60, 110, 160, 210, 270, 320 },
+    .camera = { { 1.5f, -3.6f, 2.0f }, { 0.1f, -0.2f, 1.08f }, 32.0f },
+    .look = { { 1.0f, 1.0f, 1.0f }, { 0.93f, 0.92f, 0.90f }, { 0.75f, 0.73f, 0.70f }, 1.0f },
+    .print = PrintPoster,
+    .start = StartPoster,
+    .push = RipPoster,
+};
+
+/* ---- Weave: hands tear a cloth along its threads ---------------------------------------------------------------- */
+
+static bool StartWeave(Scene* scene, const SceneOptions* options)
+{
+    kiriSheetDef def;
+    return MakeSheet(scene, options, &def, 0.8f, KIRI_MATERIAL_COTTON, 0.05f, 5.0f) &&
+           AddHand(scene, &def, (float[]){ 0.28f, 0.92f }, (float[]){ 0.2f, 1.2f }) &&
+           AddHand(scene, &def, (float[]){ 0.52f, 0.92f }, (float[]){ 0.6f, 1.2f }) &&
+           Scene_AddLine(scene, 0.4f, 1.05f, 0.42f, 0.85f);
+}
+
+static void TearWeave(Scene* scene)
+{
+    bool isPulling = IsBetween(scene, RIP, RIP_END);
+    for (int i = 0; i < 2; i++) {
+        float side = i == 0 ? -1.0f : 1.0f;
+        MoveHand(scene, i, isPulling ? (float[]){ 0.005f * side, 0.0f, 0.0f } : (float[]){ 0.0f, 0.0f, 0.0f }, 0.0f);
+    }
+}
+
+const SceneType weaveScene = {
+    .name = "weave",
+    .about = "two hands tear a cloth along its threads, from a slanted cut on",
+    .size = 0.4f,
+    .ticks = 320,
+    .substeps = 2,
+    .firstCut = 10,
+    .lastCut = 50,
+    .moments = { 60, 100, 150, 210, 250, 320 },
+    .camera = { { 0.6f, -4.6f, 2.0f }, { 0.0f, 0.0f, 1.2f }, 35.0f },
+    .look = { { 0.62f, 0.30f, 0.30f }, { 0.55f, 0.26f, 0.26f }, { 0.40f, 0.15f, 0.15f }, 16.0f },
+    .start = StartWeave,
+    .push = TearWeave,
 };

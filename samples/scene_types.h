@@ -10,6 +10,6 @@ extern const SceneType rubberScene;                                             
 extern const SceneType flatScene;                                                /* scene_flat.c */
 extern const SceneType miuraScene, cardScene, craneScene;                        /* scene_fold.c */
 extern const SceneType shirtScene, lanternScene, canScene, patchScene, bagScene; /* scene_sewn.c */
-extern const SceneType letterScene, stampsScene;                                 /* scene_tear.c */
+extern const SceneType letterScene, stampsScene, posterScene, weaveScene;       /* scene_tear.c */
 
 #endif
