@@ -13,8 +13,7 @@ enum { CUT_MS = 3, SOLVE_MS = 1, BUDGET_MS = CUT_MS + SOLVE_MS };
 static bool CutAlong(Bed* bed, int32_t sheet, const float* points, int32_t count)
 {
     kiriCut cut;
-    return kiriBeginCut(bed->world, bed->sheets[sheet], points, &cut) == KIRI_OK &&
-           kiriCut_Extend(bed->world, cut, points + 2, count - 1) == KIRI_OK && kiriCut_End(bed->world, cut) == KIRI_OK;
+    return kiriSheet_Cut(bed->world, bed->sheets[sheet], points, count, &cut) == KIRI_OK;
 }
 
 /* From radius to 0, about the middle. */

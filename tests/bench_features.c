@@ -146,11 +146,8 @@ static bool Run(void (*set)(kiriSheetDef* def), AddFn* add, Cost* cost)
     }
     for (int tick = 0; tick < TICKS; ++tick) {
         if (tick == CUT_TICK) {
-            const float from[2] = { 0.3f, 0.2f }, to[4] = { 0.5f, 0.25f, 0.7f, 0.6f };
             kiriCut cut;
-            kiriBeginCut(world, sheet, from, &cut);
-            kiriCut_Extend(world, cut, to, 2);
-            kiriCut_End(world, cut);
+            kiriSheet_Cut(world, sheet, (const float[]){ 0.3f, 0.2f, 0.5f, 0.25f, 0.7f, 0.6f }, 3, &cut);
             cost->cut = TimedTick(world);
         } else {
             double seconds = TimedTick(world);

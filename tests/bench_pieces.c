@@ -28,8 +28,7 @@ static bool Bed_Start(Bed* bed, int32_t squares, int32_t resolution, int32_t acr
         const float way[4] = { isAcross ? at : -0.1f, isAcross ? -0.1f : at, isAcross ? at : 1.1f,
                                isAcross ? 1.1f : at };
         kiriCut cut;
-        fine = kiriBeginCut(bed->world, bed->sheet, way, &cut) == KIRI_OK &&
-               kiriCut_Extend(bed->world, cut, way + 2, 1) == KIRI_OK && kiriCut_End(bed->world, cut) == KIRI_OK;
+        fine = kiriSheet_Cut(bed->world, bed->sheet, way, 2, &cut) == KIRI_OK;
     }
     for (int32_t i = 0; fine && i < 2 * TICKS; i++) {
         fine = kiriWorld_Tick(bed->world, 1.0f / 60.0f, 2) >= 0;

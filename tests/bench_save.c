@@ -113,8 +113,7 @@ static void PlayCrowd(Sizes* sizes)
         const float way[4] = { 0.3f, -0.1f, 0.4f, 0.7f };
         kiriCut cut;
         if (tick % BASE_TICKS == BASE_TICKS / 2) {
-            fine = kiriBeginCut(world, sheets[tick % CROWD], way, &cut) == KIRI_OK &&
-                   kiriCut_Extend(world, cut, way + 2, 1) == KIRI_OK && kiriCut_End(world, cut) == KIRI_OK;
+            fine = kiriSheet_Cut(world, sheets[tick % CROWD], way, 2, &cut) == KIRI_OK;
         }
         double start = Bench_Clock(NULL);
         fine = fine && kiriWorld_Tick(world, 1.0f / 60.0f, 2) >= 0;

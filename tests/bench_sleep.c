@@ -25,9 +25,7 @@ static bool Bed_Dice(Bed* bed, int32_t dice)
         const float way[4] = { i < dice ? at : -0.1f, i < dice ? -0.1f : at, i < dice ? at : 1.1f,
                                i < dice ? 1.1f : at };
         kiriCut cut;
-        fine = i == dice ||
-               (kiriBeginCut(bed->world, bed->sheet, way, &cut) == KIRI_OK &&
-                kiriCut_Extend(bed->world, cut, way + 2, 1) == KIRI_OK && kiriCut_End(bed->world, cut) == KIRI_OK);
+        fine = i == dice || kiriSheet_Cut(bed->world, bed->sheet, way, 2, &cut) == KIRI_OK;
     }
     return fine;
 }

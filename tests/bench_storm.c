@@ -42,8 +42,7 @@ static bool Slash(kiriWorld* world, kiriSheet sheet, int32_t wave)
         points[2 * i + 1 - wave % 2] = across;
     }
     kiriCut cut;
-    return kiriBeginCut(world, sheet, points, &cut) == KIRI_OK &&
-           kiriCut_Extend(world, cut, points + 2, POINTS - 1) == KIRI_OK && kiriCut_End(world, cut) == KIRI_OK;
+    return kiriSheet_Cut(world, sheet, points, POINTS, &cut) == KIRI_OK;
 }
 
 static void NoteTick(Storm* storm, const kiriProfile* profile)

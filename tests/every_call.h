@@ -102,6 +102,7 @@ typedef struct Given {
     CHANGES(kiriBeginCut, world, g->sheet, g->point, g->id)                                                            \
     CHANGES(kiriCut_Extend, world, g->cut, g->points, 200)                                                             \
     CHANGES(kiriCut_End, world, g->cut)                                                                                \
+    CHANGES(kiriSheet_Cut, world, g->sheet, g->points, 200, g->id)                                                     \
     CHANGES(kiriSheet_Slice, world, g->sheet, g->quad, g->id)                                                          \
     CHANGES(kiriSheet_SetTearing, world, g->sheet, g->tearing)                                                         \
     CHANGES(kiriSheet_SetTearLine, world, g->sheet, g->points, 200, g->size)                                           \

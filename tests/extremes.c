@@ -132,12 +132,10 @@ static void Cut(Trial* trial, double u0, double v0, double u1, double v1)
 {
     const Extreme* e = trial->extreme;
     double s = trial->size;
-    float from[2] = { (float)(e->rest + s * u0), (float)(e->rest + s * v0) };
-    float to[2] = { (float)(e->rest + s * u1), (float)(e->rest + s * v1) };
+    float line[4] = { (float)(e->rest + s * u0), (float)(e->rest + s * v0), (float)(e->rest + s * u1),
+                      (float)(e->rest + s * v1) };
     kiriCut cut = 0;
-    CALL(kiriBeginCut(trial->world, trial->sheet, from, &cut));
-    CALL(kiriCut_Extend(trial->world, cut, to, 1));
-    CALL(kiriCut_End(trial->world, cut));
+    CALL(kiriSheet_Cut(trial->world, trial->sheet, line, 2, &cut));
     trial->moved = true;
 }
 

@@ -234,6 +234,8 @@ CALL(WholeCut)
     return result == KIRI_ERROR_MEMORY || cut == 0 ? result : kiriCut_End(world, cut);
 }
 
+RETURN(Cut, kiriSheet_Cut(world, act->sheet, OR_NULL(0, act->points), act->pointCount, OR_NULL(1, &act->said.id)))
+
 CALL(Slice)
 {
     float blade[12];
@@ -384,6 +386,7 @@ const FuzzCall fuzzCalls[] = {
     { "WholeCut", CallWholeCut, "srP", FUZZ_SEVERAL, Cuts },
     { "WholeCut", CallWholeCut, "srP", FUZZ_SEVERAL, Cuts },
     { "WholeCut", CallWholeCut, "srP", FUZZ_SEVERAL, Cuts },
+    { "Cut", CallCut, "sP", 0, Cuts },
     { "Slice", CallSlice, "svvvv", 0, Cuts },
     { "BeginBlade", CallBeginBlade, "s", ADDS, Blades },
     { "MoveEdge", CallMoveEdge, "bvv", 0, NULL },

@@ -450,9 +450,7 @@ static inline kiriSheet Host_AddSmall(Host* host, int32_t squares)
 static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points, int32_t count)
 {
     kiriCut cut = 0;
-    OK(kiriBeginCut(host->world, sheet, points, &cut));
-    OK(kiriCut_Extend(host->world, cut, points + 2, count - 1));
-    OK(kiriCut_End(host->world, cut));
+    OK(kiriSheet_Cut(host->world, sheet, points, count, &cut));
     return cut;
 }
 

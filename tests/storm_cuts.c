@@ -28,9 +28,7 @@ void Storm_CutDisc(Storm* storm)
         points[i] = center[i % 2] + radius * corners[i];
     }
     kiriCut cut = 0;
-    Storm_Note(storm, kiriBeginCut(storm->world, Storm_AnySheet(storm), points, &cut));
-    Storm_Note(storm, kiriCut_Extend(storm->world, cut, points + 2, 8));
-    Storm_Note(storm, kiriCut_End(storm->world, cut));
+    Storm_Note(storm, kiriSheet_Cut(storm->world, Storm_AnySheet(storm), points, 9, &cut));
 }
 
 /* A cut that goes on for many ticks, and curls. */

@@ -170,9 +170,7 @@ TEST(Sleep)
     CHECK(tick < 600 && Rig::Place(crate).y == rest);
     const float across[4] = { 0.8f, -0.1f, 0.8f, 0.1f };
     kiriCut cut;
-    rig.Need(kiriBeginCut(rig.world, rig.sheets[0], across, &cut));
-    rig.Need(kiriCut_Extend(rig.world, cut, across + 2, 1));
-    rig.Need(kiriCut_End(rig.world, cut));
+    rig.Need(kiriSheet_Cut(rig.world, rig.sheets[0], across, 2, &cut));
     for (tick = 0; tick < 30; ++tick) {
         rig.Tick();
     }

@@ -332,11 +332,8 @@ TEST(RestPoints)
     }
     AssertWithin(sum, t.mass * 9.81 / 60.0, 1e-3 * t.mass, "weight");
     /* Cut off: the pieces have what lies in them. */
-    const float from[2] = { 0.2f, -0.1f }, to[2] = { 0.2f, 0.5f };
     kiriCut cut;
-    assert_int_equal(kiriBeginCut(t.world, t.sheet, from, &cut), KIRI_OK);
-    assert_int_equal(kiriCut_Extend(t.world, cut, to, 1), KIRI_OK);
-    assert_int_equal(kiriCut_End(t.world, cut), KIRI_OK);
+    assert_int_equal(kiriSheet_Cut(t.world, t.sheet, (const float[]){ 0.2f, -0.1f, 0.2f, 0.5f }, 2, &cut), KIRI_OK);
     for (int tick = 0; tick < 3; ++tick) {
         assert_int_equal(kiriSheet_SetContacts(t.world, t.sheet, contacts, Corners(contacts, still)), KIRI_OK);
         assert_true(kiriWorld_Tick(t.world, 1.0f / 60.0f, 1) >= 0);

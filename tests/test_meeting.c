@@ -375,9 +375,7 @@ static kiriWorld* CutSheet(const Layout* layout, int32_t squares, kiriSheet* she
             points[2 * k] = (float)stroke->points[k].x;
             points[2 * k + 1] = (float)stroke->points[k].y;
         }
-        assert_int_equal(kiriBeginCut(world, *sheet, points, &cut), KIRI_OK);
-        assert_int_equal(kiriCut_Extend(world, cut, points + 2, stroke->count - 1), KIRI_OK);
-        assert_int_equal(kiriCut_End(world, cut), KIRI_OK);
+        assert_int_equal(kiriSheet_Cut(world, *sheet, points, stroke->count, &cut), KIRI_OK);
     }
     assert_int_equal(kiriWorld_Tick(world, 1.0f / 60.0f, 1), KIRI_OK);
     return world;

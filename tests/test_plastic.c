@@ -82,10 +82,8 @@ static void Strip_Rest(Strip* s, int32_t ticks)
 
 static void Strip_Cut(const Strip* s, double u, double v, double toU, double toV)
 {
-    const float from[2] = { (float)u, (float)v }, to[2] = { (float)toU, (float)toV };
-    kiriCut cut = World_BeginCut(s->host.world, s->sheet, from);
-    OK(kiriCut_Extend(s->host.world, cut, to, 1));
-    OK(kiriCut_End(s->host.world, cut));
+    kiriCut cut;
+    OK(kiriSheet_Cut(s->host.world, s->sheet, (float[]){ (float)u, (float)v, (float)toU, (float)toV }, 2, &cut));
 }
 
 static double TurnOf(const kiriFrameState* state)

@@ -83,7 +83,7 @@ TEST(CutWakes)
 TEST(WaitingCutDoesNotWake)
 {
     enum { SHEETS = 6 };
-    static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
+    static const float line[4] = { 0.3f, 0.41f, 0.7f, 0.43f };
     const kiriBudget budget = { .triangles = KIRI_LEAST_TRIANGLES, .cells = 40, .samples = 20 };
     kiriSheet sheets[SHEETS];
     START_HOST(host);
@@ -94,9 +94,7 @@ TEST(WaitingCutDoesNotWake)
     assert_true(TicksToSleep(&host, sheets[SHEETS - 1], 100) < 100);
     OK(kiriWorld_SetBudget(host.world, &budget));
     for (int k = 0; k < SHEETS; ++k) {
-        kiriCut cut = World_BeginCut(host.world, sheets[k], from);
-        OK(kiriCut_Extend(host.world, cut, to, 1));
-        OK(kiriCut_End(host.world, cut));
+        Host_Cut(&host, sheets[k], line, 2);
     }
     int commits = 0, most = 0;
     for (int tick = 0; tick < 1000 && commits < SHEETS; ++tick) {

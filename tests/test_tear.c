@@ -40,10 +40,8 @@ static void TakeMaterial(kiriMaterial* material, double young, float poisson)
 
 static void CutLine(const Host* host, kiriSheet sheet, float u0, float v0, float u1, float v1)
 {
-    const float from[2] = { u0, v0 }, to[2] = { u1, v1 };
-    kiriCut cut = World_BeginCut(host->world, sheet, from);
-    OK(kiriCut_Extend(host->world, cut, to, 1));
-    OK(kiriCut_End(host->world, cut));
+    kiriCut cut;
+    OK(kiriSheet_Cut(host->world, sheet, (const float[]){ u0, v0, u1, v1 }, 2, &cut));
 }
 
 /* The point of the mesh farthest along a direction at which lips end; for one tear in a sheet. Lips are vertices with the
@@ -334,8 +332,8 @@ typedef struct Trouser {
 
 static void Trouser_Start(Trouser* t, kiriWorld* world, double young, int32_t frames, double toughness)
 {
-    const float from[2] = { -0.01f, 0.03f }, to[2] = { 0.05f, 0.03f };
     kiriSheetDef def = DefaultSheet();
+    kiriCut cut;
     memset(t, 0, sizeof(*t));
     World_StopGravity(world);
     TakeMaterial(&def.material, young, 0.3f);
@@ -346,9 +344,7 @@ static void Trouser_Start(Trouser* t, kiriWorld* world, double young, int32_t fr
     OK(kiriCreateRectangle(world, 0.12f, 0.06f, 48, 24, &def, &t->sheet));
     kiriTearing tearing = TearingOf(toughness);
     OK(kiriSheet_SetTearing(world, t->sheet, &tearing));
-    kiriCut cut = World_BeginCut(world, t->sheet, from);
-    OK(kiriCut_Extend(world, cut, to, 1));
-    OK(kiriCut_End(world, cut));
+    OK(kiriSheet_Cut(world, t->sheet, (const float[]){ -0.01f, 0.03f, 0.05f, 0.03f }, 2, &cut));
     OK(kiriWorld_Tick(world, Dt, 2));
     for (int leg = 0; leg < 2; ++leg) {
         for (int k = 0; k < PINS; ++k) {

@@ -44,11 +44,9 @@ static void AddBall(kiriWorld* world)
 
 static void Cut(kiriWorld* world, kiriSheet sheet)
 {
-    const float start[2] = { 0.3f, -0.1f }, way[6] = { 0.3f, 0.4f, 0.7f, 0.45f, 0.65f, 0.85f };
+    const float way[8] = { 0.3f, -0.1f, 0.3f, 0.4f, 0.7f, 0.45f, 0.65f, 0.85f };
     kiriCut cut;
-    kiriBeginCut(world, sheet, start, &cut);
-    kiriCut_Extend(world, cut, way, 3);
-    kiriCut_End(world, cut);
+    kiriSheet_Cut(world, sheet, way, 4, &cut);
 }
 
 /* Through what hangs at the pin in the origin, from tick 40 on. */

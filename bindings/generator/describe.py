@@ -18,6 +18,7 @@ PARAMETERS = {
     "kiriSheet_CopySources.sources": {"direction": "out", "form": "array", "length": "count", "width": 1},
     "kiriSheet_CopySourceWeights.weights": {"direction": "out", "form": "array", "length": "count", "width": 9},
     "kiriCut_Extend.restPoints": {"width": 2},
+    "kiriSheet_Cut.restPoints": {"width": 2},
     "kiriSheet_SetTearLine.restPoints": {"width": 2},
     "kiriSheet_GetCollisionPoints.positions": {"width": 3},
     "kiriSheet_GetWeights.gradients": {"width": 2},

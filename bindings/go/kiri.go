@@ -911,8 +911,7 @@ type PinDef struct {
 	Stiffness float32
 	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32
-	// 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is
-	// destroyed the target stays
+	// 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there
 	Obstacle ObstacleID
 }
 
@@ -1657,9 +1656,8 @@ var poolWorldCreateRectangle pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-// or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null:
-// the defaults. A recording stores it as kiriCreateSheet.
+// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most;
+// 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults.
 func (w *World) CreateRectangle(width float32, height float32, columns int32, rows int32, def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -2398,9 +2396,9 @@ var poolSheetBeginCut pool[struct {
 	cut       C.kiriCut
 }]
 
-// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-// closed until the next point. The id is stale after the tick in which the last point takes effect
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+// from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+// cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 // (KIRI_EVENT_CUT_FINISHED).
 func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	var made0 Cut
@@ -2418,9 +2416,9 @@ func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
-// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-// closed until the next point. The id is stale after the tick in which the last point takes effect
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+// from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+// cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 // (KIRI_EVENT_CUT_FINISHED).
 func (c Cut) Extend(restPoints [][2]float32) error {
 	if err := c.World.check(); err != nil {
@@ -2434,9 +2432,9 @@ func (c Cut) Extend(restPoints [][2]float32) error {
 	return nil
 }
 
-// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-// effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-// closed until the next point. The id is stale after the tick in which the last point takes effect
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+// from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+// cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 // (KIRI_EVENT_CUT_FINISHED).
 func (c Cut) End() error {
 	if err := c.World.check(); err != nil {
@@ -2448,6 +2446,29 @@ func (c Cut) End() error {
 		return err
 	}
 	return nil
+}
+
+var poolSheetCut pool[struct {
+	cut C.kiriCut
+}]
+
+// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+// from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+// cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
+// (KIRI_EVENT_CUT_FINISHED).
+func (s Sheet) Cut(restPoints [][2]float32) (Cut, error) {
+	var made0 Cut
+	if err := s.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSheetCut.take()
+	result := C.kiriSheet_Cut(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)), &block.cut)
+	answer := poolSheetCut.give(block)
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "Sheet.Cut", result, true); err != nil {
+		return made0, err
+	}
+	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
 var poolSheetSlice pool[struct {
@@ -2477,7 +2498,8 @@ var poolGetTearing pool[struct {
 	tearing Tearing
 }]
 
-// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+// inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 func GetTearing(preset MaterialPreset) (Tearing, error) {
 	var made0 Tearing
 	block := poolGetTearing.take()
@@ -2489,7 +2511,8 @@ func GetTearing(preset MaterialPreset) (Tearing, error) {
 	return answer.tearing, nil
 }
 
-// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+// inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 func (s Sheet) SetTearing(tearing *Tearing) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2506,7 +2529,8 @@ var poolSheetGetTearing pool[struct {
 	tearing Tearing
 }]
 
-// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+// inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 func (s Sheet) Tearing() (Tearing, error) {
 	var made0 Tearing
 	if err := s.World.check(); err != nil {
@@ -2982,8 +3006,7 @@ var poolPinGetState pool[struct {
 	state PinState
 }]
 
-// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-// the last tick that moved it. At rest the sum of reactions is the weight.
+// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 func (p Pin) State() (PinState, error) {
 	var made0 PinState
 	if err := p.World.check(); err != nil {
@@ -3004,8 +3027,7 @@ var poolPinGetReaction pool[struct {
 	torque [3]float64
 }]
 
-// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-// the last tick that moved it. At rest the sum of reactions is the weight.
+// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 func (p Pin) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -3472,6 +3494,7 @@ var functions = map[string]string{
 	"kiriBeginCut":                    "Sheet.BeginCut",
 	"kiriCut_Extend":                  "Cut.Extend",
 	"kiriCut_End":                     "Cut.End",
+	"kiriSheet_Cut":                   "Sheet.Cut",
 	"kiriSheet_Slice":                 "Sheet.Slice",
 	"kiriGetTearing":                  ".GetTearing",
 	"kiriSheet_SetTearing":            "Sheet.SetTearing",

@@ -515,7 +515,7 @@ static int64_t Call_kiriDefaultWorldDef(void* const* a)
 }
 
 static const Parameter KIRI_DEFAULT_WORLD_DEF_PARAMETERS[] = {
-    { "def", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &WORLD_DEF, NULL },
+    { "def", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 1, CLASS_NONE, &WORLD_DEF, NULL },
 };
 
 static const Argument KIRI_CREATE_WORLD_ARGUMENTS[] = {
@@ -1576,6 +1576,23 @@ static const Parameter CUT_END_PARAMETERS[] = {
     { "cut", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_CUT, NULL, NULL },
 };
 
+static const Argument SHEET_CUT_ARGUMENTS[] = {
+    { "rest_points", KIND_VECTORS2, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_Cut(void* const* a)
+{
+    return kiriSheet_Cut(a[0], *(kiriSheet*)a[1], a[2], *(int32_t*)a[3], a[4]);
+}
+
+static const Parameter SHEET_CUT_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "rest_points", FORM_IN_ROWS, TYPE_FLOAT, KIND_VECTORS2, 1, 3, 2, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_IN_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "cut", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_CUT, NULL, NULL },
+};
+
 static const Argument SHEET_SLICE_ARGUMENTS[] = {
     { "blade", KIND_VECTORS3, CLASS_NONE },
 };
@@ -2367,6 +2384,7 @@ const Method METHODS[] = {
     { CLASS_SHEET, "begin_cut", "kiriBeginCut", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_BEGIN_CUT_ARGUMENTS, 4, SHEET_BEGIN_CUT_PARAMETERS, Call_kiriBeginCut, NULL },
     { CLASS_CUT, "extend", "kiriCut_Extend", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, CUT_EXTEND_ARGUMENTS, 4, CUT_EXTEND_PARAMETERS, Call_kiriCut_Extend, NULL },
     { CLASS_CUT, "end", "kiriCut_End", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, CUT_END_PARAMETERS, Call_kiriCut_End, NULL },
+    { CLASS_SHEET, "cut", "kiriSheet_Cut", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_CUT_ARGUMENTS, 5, SHEET_CUT_PARAMETERS, Call_kiriSheet_Cut, NULL },
     { CLASS_SHEET, "slice", "kiriSheet_Slice", RETURNS_RESULT, KIND_OBJECT, CLASS_CUT, 1, 1, SHEET_SLICE_ARGUMENTS, 4, SHEET_SLICE_PARAMETERS, Call_kiriSheet_Slice, NULL },
     { CLASS_KIRI, "get_tearing", "kiriGetTearing", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, KIRI_GET_TEARING_ARGUMENTS, 2, KIRI_GET_TEARING_PARAMETERS, Call_kiriGetTearing, NULL },
     { CLASS_SHEET, "set_tearing", "kiriSheet_SetTearing", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_TEARING_ARGUMENTS, 3, SHEET_SET_TEARING_PARAMETERS, Call_kiriSheet_SetTearing, NULL },

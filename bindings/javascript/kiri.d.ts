@@ -996,8 +996,7 @@ export class PinDef {
     stiffness: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce: number;
-    /** 0: none. The target moves with it; it feels the pin (Obstacle.getState) and yields by its mass. If it is
-     *  destroyed the target stays */
+    /** 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there */
     obstacle: Obstacle | null;
 }
 /** What a host gives as PinDef: what is left out is as the default has it. */
@@ -1011,8 +1010,7 @@ export interface PinDefGiven {
     stiffness?: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce?: number;
-    /** 0: none. The target moves with it; it feels the pin (Obstacle.getState) and yields by its mass. If it is
-     *  destroyed the target stays */
+    /** 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there */
     obstacle?: Obstacle | null;
 }
 
@@ -1299,7 +1297,8 @@ export function getSetup(preset: SetupPreset, width: number, height: number, int
 /** Fills in the mesh of kiriCreateRectangle: 2 (columns + 1) (rows + 1) floats and 6 columns rows indices. */
 export function fillRectangle(width: number, height: number, columns: number, rows: number): { restPositions: Float32Array, indices: Int32Array };
 
-/** Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset. */
+/** Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+ *  inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset. */
 export function getTearing(preset: MaterialPreset, into?: Tearing): Tearing;
 
 /** A world, empty at first. Destroy it when it is done with: its memory is not JavaScript's. */
@@ -1365,10 +1364,9 @@ export class World {
     /** Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
      *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     createSheet(def: SheetDefGiven): Sheet;
-    /** Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-     *  columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read;
-     *  def null: the defaults. A recording stores it as kiriCreateSheet. */
-    createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
+    /** Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
+     *  most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults. */
+    createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
     /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does
@@ -1484,19 +1482,26 @@ export class Sheet {
     getPieceFrames(piece: number): Frame[];
     /** Destroys all pieces below an area (m^2) except the largest that stays, at the cost of one. *count: their number. */
     dropCrumbs(area: number): number;
-    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-     *  closed until the next point. The id is stale after the tick in which the last point takes effect
-     *  (KIRI_EVENT_CUT_FINISHED). */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+     *  once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+     *  nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+     *  point (KIRI_EVENT_CUT_FINISHED). */
     beginCut(restPoint: ArrayLike<number>): Cut;
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+     *  once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+     *  nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+     *  point (KIRI_EVENT_CUT_FINISHED). */
+    cut(restPoints: ArrayLike<number>): Cut;
     /** Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
      *  the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
     slice(blade: ArrayLike<number>): Cut;
-    /** Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-     *  KIRI_MODEL_LINKS. */
+    /** Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the
+     *  sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another
+     *  preset. */
     setTearing(tearing: TearingGiven): ResultCode;
-    /** Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-     *  KIRI_MODEL_LINKS. */
+    /** Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the
+     *  sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another
+     *  preset. */
     getTearing(into?: Tearing): Tearing;
     /** Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0
      *  or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it
@@ -1542,15 +1547,15 @@ export class Cut {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-     *  closed until the next point. The id is stale after the tick in which the last point takes effect
-     *  (KIRI_EVENT_CUT_FINISHED). */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+     *  once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+     *  nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+     *  point (KIRI_EVENT_CUT_FINISHED). */
     extend(restPoints: ArrayLike<number>): ResultCode;
-    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
-     *  effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
-     *  closed until the next point. The id is stale after the tick in which the last point takes effect
-     *  (KIRI_EVENT_CUT_FINISHED). */
+    /** Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+     *  once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+     *  nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+     *  point (KIRI_EVENT_CUT_FINISHED). */
     end(): ResultCode;
 }
 
@@ -1623,11 +1628,11 @@ export class Pin {
     setPose(target: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
     /** Sets the force (N) that breaks a pin of any type; 0: it never breaks. */
     setBreakForce(breakForce: number): ResultCode;
-    /** Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-     *  the last tick that moved it. At rest the sum of reactions is the weight. */
+    /** Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved
+     *  it. */
     getState(into?: PinState): PinState;
-    /** Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-     *  the last tick that moved it. At rest the sum of reactions is the weight. */
+    /** Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved
+     *  it. */
     getReaction(): { force: Float64Array, torque: Float64Array };
 }
 

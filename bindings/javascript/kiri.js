@@ -1849,7 +1849,7 @@ export class World extends WorldBase {
         }
     }
 
-    createRectangle(width, height, columns = 0, rows = 0, def = null) {
+    createRectangle(width, height, columns, rows, def = null) {
         const $world = pointer(this);
         try {
             if (def) {
@@ -2338,6 +2338,20 @@ export class Sheet extends Thing {
             fail(this.world, $result, "Sheet.beginCut");
         }
         return thing(Cut, this.world, U32[(scratch + 8) >> 2]);
+    }
+
+    cut(restPoints) {
+        const $world = pointer(this.world);
+        try {
+            const $restPoints = putRows("Float32Array", restPoints, 2, "restPoints");
+            const $result = wasm.kiriSheet_Cut($world, this.id, $restPoints, restPoints.length / 2, scratch);
+            if ($result < 0) {
+                fail(this.world, $result, "Sheet.cut");
+            }
+            return thing(Cut, this.world, U32[(scratch) >> 2]);
+        } finally {
+            release();
+        }
     }
 
     slice(blade) {

@@ -189,6 +189,7 @@ kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, i
 kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
+kiriResult kiriSheet_Cut(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, kiriCut* cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
@@ -746,8 +747,9 @@ function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
 
---- Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null:
---- nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- Fill the def; create an empty world (def null: the defaults; on failure *world is null, and the log gets the
+--- line); free it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations
+--- (manual, budget).
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
     C.kiriDefaultWorldDef(def)
@@ -977,9 +979,8 @@ function kiri.getSetup(preset, width, height, def)
     return def
 end
 
---- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
---- null: the defaults. A recording stores it as kiriCreateSheet.
+--- Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most;
+--- 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults.
 function World:createRectangle(width, height, columns, rows, def)
     local world = self
     local result = C.kiriCreateRectangle(world.c, width, height, columns, rows, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -1400,9 +1401,9 @@ function Sheet:dropCrumbs(area)
     return count
 end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 function Sheet:beginCut(restPoint)
     local world = self.world
@@ -1411,9 +1412,9 @@ function Sheet:beginCut(restPoint)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 function Cut:extend(restPoints, count)
     local world = self.world
@@ -1423,15 +1424,27 @@ function Cut:extend(restPoints, count)
     return result == 1
 end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
     if result < 0 then fail(world, "Cut:finish", result, true) end
     return result == 1
+end
+
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
+--- (KIRI_EVENT_CUT_FINISHED).
+function Sheet:cut(restPoints, count)
+    local world = self.world
+    restPoints, count = rows_of(restPoints, count, "float", 2)
+    local result = C.kiriSheet_Cut(world.c, self.id, restPoints, count, out.Cut)
+    if result < 0 then fail(world, "Sheet:cut", result, true) end
+    return handle(world, out.Cut[0], "Cut")
 end
 
 --- Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
@@ -1443,7 +1456,8 @@ function Sheet:slice(blade)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 function kiri.getTearing(preset, tearing)
     tearing = tearing or new.kiriTearing()
     local result = C.kiriGetTearing(preset, tearing)
@@ -1451,7 +1465,8 @@ function kiri.getTearing(preset, tearing)
     return tearing
 end
 
---- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 function Sheet:setTearing(tearing)
     local world = self.world
     local result = C.kiriSheet_SetTearing(world.c, self.id, struct_of(world, tearing, "kiriTearing"))
@@ -1459,7 +1474,8 @@ function Sheet:setTearing(tearing)
     return result == 1
 end
 
---- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 function Sheet:getTearing(tearing)
     local world = self.world
     tearing = tearing or new.kiriTearing()
@@ -1676,8 +1692,7 @@ function Pin:setBreakForce(breakForce)
     return result == 1
 end
 
---- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
---- the last tick that moved it. At rest the sum of reactions is the weight.
+--- Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 function Pin:getState(state)
     local world = self.world
     state = state or new.kiriPinStateView()
@@ -1687,8 +1702,7 @@ function Pin:getState(state)
     return state
 end
 
---- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
---- the last tick that moved it. At rest the sum of reactions is the weight.
+--- Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 function Pin:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)

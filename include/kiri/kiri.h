@@ -111,8 +111,8 @@ typedef struct kiriWorldDef {
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
 } kiriWorldDef;
 
-/* Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null: nothing).
-   KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
+/* Fill the def; create an empty world (def null: the defaults; on failure *world is null, and the log gets the line); free
+   it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget). */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
@@ -391,9 +391,8 @@ KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
    sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy). */
 KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
 
-/* Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or
-   rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null: the
-   defaults. A recording stores it as kiriCreateSheet. */
+/* Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most; 0: as
+   many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults. */
 KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                         const kiriSheetDef* def, kiriSheet* sheet);
 
@@ -647,12 +646,13 @@ KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, floa
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
 
-/* Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take effect
-   with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until
-   the next point. The id is stale after the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED). */
+/* Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once, from
+   2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
+   inside stays closed until the next point. The id is stale after the tick of the last point (KIRI_EVENT_CUT_FINISHED). */
 KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
+KIRI_API kiriResult kiriSheet_Cut(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, kiriCut* cut);
 
 /* Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets the
    current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
@@ -672,10 +672,9 @@ typedef struct kiriTearing {
     int32_t maxTips;  /* tips that tear in a tick, 0 or more; 0: 8. Others wait */
 } kiriTearing;
 
-/* Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset. */
+/* Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet inherit
+   them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset. */
 KIRI_API kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
-
-/* Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS. */
 KIRI_API kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);
 KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 
@@ -766,8 +765,7 @@ typedef struct kiriPinDef {
     float target[3];    /* m, world */
     float stiffness;    /* N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual) */
     float breakForce;   /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
-    kiriObstacle obstacle; /* 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields
-                              by its mass. If it is destroyed the target stays */
+    kiriObstacle obstacle; /* 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there */
 } kiriPinDef;
 
 /* Fill the def with its defaults; pin a point; destroy any pin. On failure *pin is 0. KIRI_ERROR_ARGUMENT: outside. */
@@ -805,8 +803,7 @@ typedef struct kiriPinState {
     kiriObstacle obstacle; /* that the target moves with; 0: none */
 } kiriPinState;
 
-/* Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
-   last tick that moved it. At rest the sum of reactions is the weight. */
+/* Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it. */
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 

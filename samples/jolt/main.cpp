@@ -84,12 +84,9 @@ int main()
                            speed = (double)bodies.GetLinearVelocity(crate).Length();
                     std::printf("the crate hangs at %.2f m in the cloth, and moves at %.3f m/s\n", at, speed);
                     fault |= !(at > 0.3 && at < 1.0 && speed < 0.05);
-                    const float strokes[2][2][2] = { { { -0.1f, 0.5f }, { 1.1f, 0.5f } },
-                                                     { { 0.5f, -0.1f }, { 0.5f, 1.1f } } };
+                    const float strokes[2][4] = { { -0.1f, 0.5f, 1.1f, 0.5f }, { 0.5f, -0.1f, 0.5f, 1.1f } };
                     for (const auto& stroke : strokes) {
-                        kiriBeginCut(world, cloth, stroke[0], &cut);
-                        kiriCut_Extend(world, cut, stroke[1], 1);
-                        kiriCut_End(world, cut);
+                        kiriSheet_Cut(world, cloth, stroke, 2, &cut);
                     }
                 }
                 mirror.Mirror(&cloth, 1, dt);

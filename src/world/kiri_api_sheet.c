@@ -163,6 +163,21 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
     KIRI_RETURN(KIRI_OK);
 }
 
+kiriResult kiriSheet_Cut(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, kiriCut* cut)
+{
+    KIRI_CHANGES(Sheet_Cut, &sheet, restPoints, &count, cut);
+    kiriCutData* made;
+    KIRI_REQUIRE(count > 1, KIRI_ERROR_ARGUMENT, "a cut in one call has two points or more");
+    kiriResult result = kiriWorld_AddCut(world, call->sheet, count, &made);
+    KIRI_REQUIRE(result == KIRI_OK, result, NULL);
+    KIRI_TIMES(i, count) {
+        kiriWorld_QueuePoint(world, made, kiriSheet_ToLocal(call->sheet, &restPoints[2 * i]), i == 0);
+    }
+    kiriWorld_EndCut(world, made);
+    *cut = made->id;
+    KIRI_RETURN(KIRI_OK);
+}
+
 /* Queues a cut along each line where the plane of the quad meets the sheet. */
 static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriVec3 quad[4], kiriMemory* scratch,
                              kiriCut* cut)

@@ -200,7 +200,10 @@ static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const 
 
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
 {
-    if (def == NULL || world == NULL) {
+    kiriWorldDef defaults;
+    kiriDefaultWorldDef(&defaults);
+    def = def != NULL ? def : &defaults;
+    if (world == NULL) {
         return KIRI_ERROR_ARGUMENT;
     }
     *world = NULL;

@@ -70,7 +70,8 @@ KIRI_C_BEGIN
     X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)                                                                          \
     X3(Sheet_AddFold, SHEET, FOLD, NEW_COUNT)                                                                          \
     X2(Sheet_SetTearing, SHEET, TEARING)                                                                               \
-    X4(Sheet_SetTearLine, SHEET, POINTS, COUNT, SIZE)
+    X4(Sheet_SetTearLine, SHEET, POINTS, COUNT, SIZE)                                                                  \
+    X4(Sheet_Cut, SHEET, POINTS, COUNT, NEW_ID)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,

@@ -662,9 +662,9 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        /// columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not
-        /// read; def null: the defaults. A recording stores it as kiriCreateSheet.</summary>
+        /// <summary>Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
+        /// most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the
+        /// defaults.</summary>
         public Sheet CreateRectangle(float width, float height, int columns, int rows, SheetDef? @def = null)
         {
             SheetDef defValue = @def.GetValueOrDefault();
@@ -872,8 +872,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another
-        /// preset.</summary>
+        /// <summary>Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the
+        /// sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+        /// another preset.</summary>
         public static Tearing GetTearing(MaterialPreset preset)
         {
             var tearingValue = new Tearing();
@@ -1176,14 +1177,30 @@ namespace Kiri
             return countValue;
         }
 
-        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        /// once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        /// nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        /// point (KIRI_EVENT_CUT_FINISHED).</summary>
         public Cut BeginCut(Float2 restPoint)
         {
             var cutValue = new CutId();
             World.Check(Native.kiriBeginCut(World.Handle, Id, (float*)&restPoint, &cutValue), "Sheet.BeginCut");
+            return new Cut(World, cutValue);
+        }
+
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        /// once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        /// nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        /// point (KIRI_EVENT_CUT_FINISHED).</summary>
+        public Cut Cut(float[] restPoints, int count = -1)
+        {
+            if (count < 0) count = restPoints.Length / 2;
+            if (count > restPoints.Length / 2) World.ThrowRange();
+            var cutValue = new CutId();
+            fixed (float* restPointsRows = restPoints)
+            {
+                World.Check(Native.kiriSheet_Cut(World.Handle, Id, restPointsRows, count, &cutValue), "Sheet.Cut");
+            }
             return new Cut(World, cutValue);
         }
 
@@ -1197,15 +1214,17 @@ namespace Kiri
             return new Cut(World, cutValue);
         }
 
-        /// <summary>Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-        /// KIRI_MODEL_LINKS.</summary>
+        /// <summary>Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the
+        /// sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+        /// another preset.</summary>
         public void SetTearing(Tearing tearing)
         {
             World.Check(Native.kiriSheet_SetTearing(World.Handle, Id, &tearing), "Sheet.SetTearing");
         }
 
-        /// <summary>Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-        /// KIRI_MODEL_LINKS.</summary>
+        /// <summary>Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the
+        /// sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+        /// another preset.</summary>
         public Tearing GetTearing()
         {
             var tearingValue = new Tearing();
@@ -1526,8 +1545,8 @@ namespace Kiri
             World.Check(Native.kiriPin_SetBreakForce(World.Handle, Id, breakForce), "Pin.SetBreakForce");
         }
 
-        /// <summary>Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
-        /// over the last tick that moved it. At rest the sum of reactions is the weight.</summary>
+        /// <summary>Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that
+        /// moved it.</summary>
         public PinState GetState()
         {
             var stateValue = new PinState();
@@ -1535,8 +1554,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
-        /// over the last tick that moved it. At rest the sum of reactions is the weight.</summary>
+        /// <summary>Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that
+        /// moved it.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1559,10 +1578,10 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator CutId(Cut handle) { return handle.Id; }
 
-        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        /// once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        /// nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        /// point (KIRI_EVENT_CUT_FINISHED).</summary>
         public void Extend(float[] restPoints, int count = -1)
         {
             if (count < 0) count = restPoints.Length / 2;
@@ -1573,10 +1592,10 @@ namespace Kiri
             }
         }
 
-        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        /// take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        /// inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        /// effect (KIRI_EVENT_CUT_FINISHED).</summary>
+        /// <summary>Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        /// once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        /// nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        /// point (KIRI_EVENT_CUT_FINISHED).</summary>
         public void End()
         {
             World.Check(Native.kiriCut_End(World.Handle, Id), "Cut.End");

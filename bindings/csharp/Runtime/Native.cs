@@ -1159,8 +1159,7 @@ namespace Kiri
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;
-        /// <summary>0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is
-        /// destroyed the target stays</summary>
+        /// <summary>0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there</summary>
         public ObstacleId Obstacle;
 
         /// <summary>With the defaults of the library.</summary>
@@ -1657,6 +1656,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriCut_End(IntPtr world, CutId cut);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_Cut(IntPtr world, SheetId sheet, float* restPoints, int count, CutId* cut);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_Slice(IntPtr world, SheetId sheet, float* blade, CutId* cut);

@@ -399,7 +399,7 @@ kiri.DRAW_ALL = 2047
 ---@field target? number[]|ffi.cdata* # m, world
 ---@field stiffness? number # N/m. 0: ten times Young's modulus times thickness; from a tenth on drawn at its target (manual)
 ---@field breakForce? number # N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
----@field obstacle? kiri.Obstacle # 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by its mass. If it is destroyed the target stays
+---@field obstacle? kiri.Obstacle # 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there
 
 --- Type and target of a pin.
 ---@class kiri.PinState
@@ -602,8 +602,9 @@ function kiri.getResultName(result) end
 ---@return string
 function kiri.getResultText(result) end
 
---- Fill the def; create an empty world (on failure *world is null; the log gets the line); free it (world null:
---- nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations (manual, budget).
+--- Fill the def; create an empty world (def null: the defaults; on failure *world is null, and the log gets the
+--- line); free it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread, changes float operations
+--- (manual, budget).
 ---@param def? kiri.WorldDef
 ---@return kiri.WorldDef
 function kiri.defaultWorldDef(def) end
@@ -760,9 +761,8 @@ function Sheet:destroy() end
 ---@return kiri.SheetDef
 function kiri.getSetup(preset, width, height, def) end
 
---- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
---- null: the defaults. A recording stores it as kiriCreateSheet.
+--- Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most;
+--- 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults.
 ---@param width number
 ---@param height number
 ---@param columns integer
@@ -1055,29 +1055,38 @@ function World:destroyPieces(frames, count) end
 ---@return integer
 function Sheet:dropCrumbs(area) end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 ---@param restPoint number[]|ffi.cdata*
 ---@return kiri.Cut
 function Sheet:beginCut(restPoint) end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 ---@param restPoints number[]|ffi.cdata*
 ---@param count? integer
 ---@return boolean # work is left for later ticks
 function Cut:extend(restPoints, count) end
 
---- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points take
---- effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end inside stays
---- closed until the next point. The id is stale after the tick in which the last point takes effect
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
 --- (KIRI_EVENT_CUT_FINISHED).
 ---@return boolean # work is left for later ticks
 function Cut:finish() end
+
+--- Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at once,
+--- from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is
+--- cut; an end inside stays closed until the next point. The id is stale after the tick of the last point
+--- (KIRI_EVENT_CUT_FINISHED).
+---@param restPoints number[]|ffi.cdata*
+---@param count? integer
+---@return kiri.Cut
+function Sheet:cut(restPoints, count) end
 
 --- Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
 --- the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
@@ -1085,18 +1094,21 @@ function Cut:finish() end
 ---@return kiri.Cut
 function Sheet:slice(blade) end
 
---- Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another preset.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 ---@param preset integer
 ---@param tearing? kiri.Tearing
 ---@return kiri.Tearing
 function kiri.getTearing(preset, tearing) end
 
---- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 ---@param tearing? kiri.Tearing
 ---@return boolean # work is left for later ticks
 function Sheet:setTearing(tearing) end
 
---- Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS.
+--- Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of the sheet
+--- inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS, another preset.
 ---@param tearing? kiri.Tearing
 ---@return kiri.Tearing
 function Sheet:getTearing(tearing) end
@@ -1250,14 +1262,12 @@ function Pin:setPose(target, rotation) end
 ---@return boolean # work is left for later ticks
 function Pin:setBreakForce(breakForce) end
 
---- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
---- the last tick that moved it. At rest the sum of reactions is the weight.
+--- Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 ---@param state? kiri.PinState
 ---@return kiri.PinState
 function Pin:getState(state) end
 
---- Get the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
---- the last tick that moved it. At rest the sum of reactions is the weight.
+--- Get the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that moved it.
 ---@param force? number[]|ffi.cdata*
 ---@param torque? number[]|ffi.cdata*
 ---@return ffi.cdata*

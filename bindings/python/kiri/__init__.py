@@ -3,9 +3,7 @@
     import kiri
     world = kiri.World()
     sheet = world.create_rectangle(1.0, 1.0, 16, 16, frameCount=9)
-    cut = sheet.begin_cut((0.2, 0.5))
-    cut.extend([(0.8, 0.5)])
-    cut.end()
+    sheet.cut([(-0.1, 0.5), (1.1, 0.5)])
     world.tick(1 / 60)
     sheet.mesh().positions
 

@@ -102,6 +102,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriBeginCut': True,
  'kiriCut_Extend': True,
  'kiriCut_End': True,
+ 'kiriSheet_Cut': True,
  'kiriSheet_Slice': True,
  'kiriSheet_SetTearing': True,
  'kiriSheet_GetTearing': False,
@@ -225,6 +226,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriBeginCut': ('Sheet', 'begin_cut'),
  'kiriCut_Extend': ('Cut', 'extend'),
  'kiriCut_End': ('Cut', 'end'),
+ 'kiriSheet_Cut': ('Sheet', 'cut'),
  'kiriSheet_Slice': ('Sheet', 'slice'),
  'kiriGetTearing': (None, 'tearing'),
  'kiriSheet_SetTearing': ('Sheet', 'set_tearing'),
@@ -544,6 +546,7 @@ kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, i
 kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
 kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
+kiriResult kiriSheet_Cut(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count, kiriCut* cut);
 kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 kiriResult kiriGetTearing(int32_t preset, kiriTearing* tearing);
 kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, const kiriTearing* tearing);

@@ -77,8 +77,9 @@ def setup(preset: int, width: float, height: float) -> Record:
 
 
 def tearing(preset: int) -> Record:
-    """Returns toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on another
-    preset.
+    """Returns toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of
+    the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+    another preset.
     """
     structure = core.ffi.new('kiriTearing*')
     core.check('kiriGetTearing', preset, structure)
@@ -168,10 +169,10 @@ class World:
         """Returns the profile of the last tick that was not refused."""
         return core.record(self.get('kiriWorld_GetProfile', 'kiriProfile'), self)
 
-    def create_rectangle(self, width: float, height: float, columns: int = 0, rows: int = 0, **fields: Unpack[SheetDef]) -> kiri.Sheet:
-        """Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not
-        read; def None: the defaults. A recording stores it as kiriCreateSheet.
+    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Unpack[SheetDef]) -> kiri.Sheet:
+        """Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
+        most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def None: the
+        defaults.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
@@ -354,12 +355,20 @@ class Sheet:
         return self.world.get('kiriSheet_DropCrumbs', 'int32_t', self.id, area)
 
     def begin_cut(self, rest_point: Numbers) -> kiri.Cut:
-        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        effect (KIRI_EVENT_CUT_FINISHED).
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        point (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.thing('Cut', self.world.get('kiriBeginCut', 'kiriCut', self.id, core.vector(rest_point, 2)))
+
+    def cut(self, rest_points: Numbers) -> kiri.Cut:
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        point (KIRI_EVENT_CUT_FINISHED).
+        """
+        return self.world.thing('Cut', self.world.get('kiriSheet_Cut', 'kiriCut', self.id, *core.rows('float', rest_points, 2)))
 
     def slice(self, blade: Numbers) -> kiri.Cut:
         """Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2],
@@ -369,16 +378,18 @@ class Sheet:
         return self.world.thing('Cut', self.world.get('kiriSheet_Slice', 'kiriCut', self.id, core.vector(blade, 12)))
 
     def set_tearing(self, **fields: Unpack[Tearing]) -> int:
-        """Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-        KIRI_MODEL_LINKS.
+        """Returns toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of
+        the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+        another preset.
         """
         kept = []  # until C has read it
         structure = core.structure(self.world, 'kiriTearing', fields, kept)
         return self.world.call('kiriSheet_SetTearing', self.id, structure)
 
     def tearing(self) -> Record:
-        """Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than
-        KIRI_MODEL_LINKS.
+        """Returns toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them: parts of
+        the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other than KIRI_MODEL_LINKS,
+        another preset.
         """
         return core.record(self.world.get('kiriSheet_GetTearing', 'kiriTearing', self.id), self.world)
 
@@ -460,18 +471,18 @@ class Sheet:
 
 class Cut:
     def extend(self, rest_points: Numbers) -> int:
-        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        effect (KIRI_EVENT_CUT_FINISHED).
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        point (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.call('kiriCut_Extend', self.id, *core.rows('float', rest_points, 2))
 
     def end(self) -> int:
-        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it. Points
-        take effect with the next tick or, by the budget, a later one. Outside the sheet nothing is cut; an end
-        inside stays closed until the next point. The id is stale after the tick in which the last point takes
-        effect (KIRI_EVENT_CUT_FINISHED).
+        """Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24); end it; or all at
+        once, from 2 points. Points take effect with the next tick or, by the budget, a later one. Outside the sheet
+        nothing is cut; an end inside stays closed until the next point. The id is stale after the tick of the last
+        point (KIRI_EVENT_CUT_FINISHED).
         """
         return self.world.call('kiriCut_End', self.id)
 
@@ -580,14 +591,14 @@ class Pin:
         return self.world.call('kiriPin_SetBreakForce', self.id, break_force)
 
     def state(self) -> Record:
-        """Returns the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet:
-        means over the last tick that moved it. At rest the sum of reactions is the weight.
+        """Returns the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that
+        moved it.
         """
         return core.record(self.world.get('kiriPin_GetState', 'kiriPinState', self.id), self.world)
 
     def reaction(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
-        """Returns the state; force (N, world) and torque (N m, about the target) that the pin applied to the sheet:
-        means over the last tick that moved it. At rest the sum of reactions is the weight.
+        """Returns the state; force (N) and torque (N m, about the target) on the sheet: means over the last tick that
+        moved it.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')

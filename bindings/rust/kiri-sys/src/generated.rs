@@ -837,8 +837,7 @@ pub struct kiriPinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
-    /// 0: none. The target moves with it; it feels the pin (kiriObstacle_GetState) and yields by
-    /// its mass. If it is destroyed the target stays
+    /// 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there
     pub obstacle: kiriObstacle,
 }
 
@@ -1057,17 +1056,17 @@ unsafe extern "C" {
     /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
     /// line with its meaning.
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
-    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
-    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
-    /// changes float operations (manual, budget).
+    /// Fill the def; create an empty world (def null: the defaults; on failure \*world is null, and
+    /// the log gets the line); free it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode
+    /// of this thread, changes float operations (manual, budget).
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
-    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
-    /// changes float operations (manual, budget).
+    /// Fill the def; create an empty world (def null: the defaults; on failure \*world is null, and
+    /// the log gets the line); free it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode
+    /// of this thread, changes float operations (manual, budget).
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
-    /// Fill the def; create an empty world (on failure \*world is null; the log gets the line);
-    /// free it (world null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode of this thread,
-    /// changes float operations (manual, budget).
+    /// Fill the def; create an empty world (def null: the defaults; on failure \*world is null, and
+    /// the log gets the line); free it (null: nothing). KIRI_ERROR_BUILD: the compiler, or a mode
+    /// of this thread, changes float operations (manual, budget).
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
@@ -1154,10 +1153,9 @@ unsafe extern "C" {
     /// for a kind of sheet and its sides (m, 1 : 256 at most). Other fields are as
     /// kiriDefaultSheetDef has them (manual, accuracy).
     pub fn kiriGetSetup(preset: i32, width: f32, height: f32, def: *mut kiriSheetDef) -> kiriResult;
-    /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at
-    /// most 4096. The mesh of def is not read; def null: the defaults. A recording stores it as
-    /// kiriCreateSheet.
+    /// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \* columns \* rows
+    /// triangles; 4096 at most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def
+    /// is not read; def null: the defaults.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
     /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
     /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
@@ -1306,32 +1304,40 @@ unsafe extern "C" {
     /// \*count: their number.
     pub fn kiriSheet_DropCrumbs(world: *mut kiriWorld, sheet: kiriSheet, area: f32, count: *mut i32) -> kiriResult;
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriBeginCut(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, cut: *mut kiriCut) -> kiriResult;
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriCut_Extend(world: *mut kiriWorld, cut: kiriCut, restPoints: *const f32, count: i32) -> kiriResult;
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect (KIRI_EVENT_CUT_FINISHED).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point (KIRI_EVENT_CUT_FINISHED).
     pub fn kiriCut_End(world: *mut kiriWorld, cut: kiriCut) -> kiriResult;
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point (KIRI_EVENT_CUT_FINISHED).
+    pub fn kiriSheet_Cut(world: *mut kiriWorld, sheet: kiriSheet, restPoints: *const f32, count: i32, cut: *mut kiriCut) -> kiriResult;
     /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
     /// that it crosses. The cut is already ended.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails
-    /// on another preset.
+    /// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set
+    /// them: parts of the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model
+    /// other than KIRI_MODEL_LINKS, another preset.
     pub fn kiriGetTearing(preset: i32, tearing: *mut kiriTearing) -> kiriResult;
-    /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
-    /// than KIRI_MODEL_LINKS.
+    /// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set
+    /// them: parts of the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model
+    /// other than KIRI_MODEL_LINKS, another preset.
     pub fn kiriSheet_SetTearing(world: *mut kiriWorld, sheet: kiriSheet, tearing: *const kiriTearing) -> kiriResult;
-    /// Parts of the sheet inherit it. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model other
-    /// than KIRI_MODEL_LINKS.
+    /// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set
+    /// them: parts of the sheet inherit them. KIRI_ERROR_ARGUMENT: a toughness above 0 with a model
+    /// other than KIRI_MODEL_LINKS, another preset.
     pub fn kiriSheet_GetTearing(world: *const kiriWorld, sheet: kiriSheet, tearing: *mut kiriTearing) -> kiriResult;
     /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
     /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
@@ -1414,13 +1420,11 @@ unsafe extern "C" {
     pub fn kiriPin_SetPose(world: *mut kiriWorld, pin: kiriPin, target: *const f32, rotation: *const f32) -> kiriResult;
     /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn kiriPin_SetBreakForce(world: *mut kiriWorld, pin: kiriPin, breakForce: f32) -> kiriResult;
-    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
-    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
-    /// weight.
+    /// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the
+    /// last tick that moved it.
     pub fn kiriPin_GetState(world: *const kiriWorld, pin: kiriPin, state: *mut kiriPinState) -> kiriResult;
-    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
-    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
-    /// weight.
+    /// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the
+    /// last tick that moved it.
     pub fn kiriPin_GetReaction(world: *const kiriWorld, pin: kiriPin, force: *mut f64, torque: *mut f64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's pins, of all types; \*count is how many there
     /// are.

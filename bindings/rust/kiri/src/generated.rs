@@ -1802,8 +1802,7 @@ pub struct PinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
-    /// 0: none. The target moves with it; it feels the pin ([`Obstacle::state`]) and yields by its
-    /// mass. If it is destroyed the target stays
+    /// 0: none. The target moves with it; it feels the pin; destroyed, it leaves the target there
     pub obstacle: Option<Obstacle>,
 }
 
@@ -2449,8 +2448,9 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
     Ok((rest_positions, indices))
 }
 
-/// Gets toughness and strength of a material, in orders of magnitude, and 0 for the rest. Fails on
-/// another preset.
+/// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set them:
+/// parts of the sheet inherit them. [`ResultCode::ErrorArgument`]: a toughness above 0 with a model
+/// other than [`Model::Links`], another preset.
 pub fn tearing(preset: MaterialPreset) -> Result<Tearing> {
     let mut tearing = MaybeUninit::<sys::kiriTearing>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2626,10 +2626,9 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
-    /// \* rows triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at
-    /// most 4096. The mesh of def is not read; def null: the defaults. A recording stores it as
-    /// [`World::create_sheet`].
+    /// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \* columns \* rows
+    /// triangles; 4096 at most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def
+    /// is not read; def null: the defaults.
     pub fn create_rectangle(&mut self, width: f32, height: f32, columns: i32, rows: i32, def: Option<&SheetDef<'_>>) -> Result<Sheet> {
         let def = def.map(|def| def.raw());
         let mut sheet = 0;
@@ -3047,14 +3046,25 @@ impl Sheet {
     }
 
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point ([`EventType::CutFinished`]).
     pub fn begin_cut(self, world: &mut World, rest_point: impl Into<[f32; 2]>) -> Result<Cut> {
         let rest_point: [f32; 2] = rest_point.into();
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBeginCut(world.raw_mut(), self.raw(), rest_point.as_ptr(), &mut cut) }, world, "Sheet::begin_cut")?;
+        Ok(Cut::known(cut))
+    }
+
+    /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point ([`EventType::CutFinished`]).
+    pub fn cut(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<Cut> {
+        let mut cut = 0;
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSheet_Cut(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, &mut cut) }, world, "Sheet::cut")?;
         Ok(Cut::known(cut))
     }
 
@@ -3068,16 +3078,18 @@ impl Sheet {
         Ok(Cut::known(cut))
     }
 
-    /// Parts of the sheet inherit it. [`ResultCode::ErrorArgument`]: a toughness above 0 with a
-    /// model other than [`Model::Links`].
+    /// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set
+    /// them: parts of the sheet inherit them. [`ResultCode::ErrorArgument`]: a toughness above 0
+    /// with a model other than [`Model::Links`], another preset.
     pub fn set_tearing(self, world: &mut World, tearing: &Tearing) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetTearing(world.raw_mut(), self.raw(), &tearing.raw()) }, world, "Sheet::set_tearing")?;
         Ok(())
     }
 
-    /// Parts of the sheet inherit it. [`ResultCode::ErrorArgument`]: a toughness above 0 with a
-    /// model other than [`Model::Links`].
+    /// Get toughness and strength of a material, in orders of magnitude, and 0 for the rest; set
+    /// them: parts of the sheet inherit them. [`ResultCode::ErrorArgument`]: a toughness above 0
+    /// with a model other than [`Model::Links`], another preset.
     pub fn tearing(self, world: &World) -> Result<Tearing> {
         let mut tearing = MaybeUninit::<sys::kiriTearing>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3407,9 +3419,8 @@ impl Pin {
         Ok(())
     }
 
-    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
-    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
-    /// weight.
+    /// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the
+    /// last tick that moved it.
     pub fn state(self, world: &World) -> Result<PinState> {
         let mut state = MaybeUninit::<sys::kiriPinState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3419,9 +3430,8 @@ impl Pin {
         Ok(PinState::from_raw(&state))
     }
 
-    /// Get the state; force (N, world) and torque (N m, about the target) that the pin applied to
-    /// the sheet: means over the last tick that moved it. At rest the sum of reactions is the
-    /// weight.
+    /// Get the state; force (N) and torque (N m, about the target) on the sheet: means over the
+    /// last tick that moved it.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -3433,9 +3443,9 @@ impl Pin {
 
 impl Cut {
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point ([`EventType::CutFinished`]).
     pub fn extend(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world, "Cut::extend")?;
@@ -3443,9 +3453,9 @@ impl Cut {
     }
 
     /// Begin a cut, a polyline in the rest plane; add points (2 floats each; count is 1 to 2^24);
-    /// end it. Points take effect with the next tick or, by the budget, a later one. Outside the
-    /// sheet nothing is cut; an end inside stays closed until the next point. The id is stale after
-    /// the tick in which the last point takes effect ([`EventType::CutFinished`]).
+    /// end it; or all at once, from 2 points. Points take effect with the next tick or, by the
+    /// budget, a later one. Outside the sheet nothing is cut; an end inside stays closed until the
+    /// next point. The id is stale after the tick of the last point ([`EventType::CutFinished`]).
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world, "Cut::end")?;

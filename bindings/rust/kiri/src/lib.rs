@@ -274,14 +274,6 @@ impl Sheet {
         Ok(())
     }
 
-    /// A cut along a polyline of rest points, all at once.
-    pub fn cut(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<Cut> {
-        let cut = self.begin_cut(world, rest_points.first().copied().unwrap_or([f32::NAN; 2]))?;
-        cut.extend(world, &rest_points[1..])?;
-        cut.end(world)?;
-        Ok(cut)
-    }
-
     /// The pieces that hang together, in the order of their numbers.
     pub fn pieces(self, world: &mut World) -> Result<Pieces<'_>> {
         let pieces = 0..self.counts(world)?.pieces;
