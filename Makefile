@@ -6,7 +6,8 @@
 #   make view     shows a recording or a save in a window; FILE=error.kiri
 #   make test     builds and runs all tests; test-all: installs Mono, Godot, Xvfb and LuaJIT before, for all bindings
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
-#   make check    compares figures of the sources with their limits, which only get stricter; includes, fields; no build
+#   make check    limits, and half a minute of tests of what users meet first: after a change, or on a new machine
+#   make limits   compares figures of the sources with their limits, which only get stricter; includes, fields; no build
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
 #   make page     cuts pages of lines and compares the pieces with Shapely's; ARGS='10 1 2000': pages, first seed, lines
@@ -57,6 +58,7 @@ NEEDS_view := $(NEEDS_run) libsdl2-dev libsdl2-ttf-dev
 WANTS_view := fonts-dejavu-core
 NEEDS_test := $(NEEDS_play) libcmocka-dev
 NEEDS_tsan := $(NEEDS_lib) libcmocka-dev
+NEEDS_check := $(NEEDS_lib) libcmocka-dev
 NEEDS_fuzz := clang libclang-rt-dev $(NEEDS_lib) libcmocka-dev
 NEEDS_bench := $(NEEDS_lib) libcmocka-dev
 NEEDS_figures := $(NEEDS_bench) libbullet-dev
@@ -152,7 +154,7 @@ PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 PYTHON_CHECK := $(if $(filter sanitize thread,$(config)),,python)
 # What is made from the header, the programs of the manual, tests of the Makefile itself and of what it installs, and
 # what does not depend on the options of the compiler: once. Those that take longest begin first.
-ONCE := $(if $(filter release,$(config)),consumers manual-programs exported builds example headers described unrun float-guards check renderers)
+ONCE := $(if $(filter release,$(config)),consumers manual-programs exported builds example headers described unrun float-guards limits renderers)
 
 # What was made by other commands, or by another Makefile, is made anew: objects depend on a file with the text of the
 # commands, the library on one with the lists of objects, and all that is linked on the library.
@@ -166,7 +168,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d jolt play view python bindings described builds exported renderers lib single example bench accuracy trade contact extremes gallery guide deps
-.PHONY: unrun test test-all all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields quotes figures headers format clean exports FORCE
+.PHONY: unrun test test-all all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check limits ratchet floors fields quotes figures headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -461,7 +463,18 @@ unrun:
 	@echo "benchmarks: all compile"
 
 # What the sources say of themselves, without a build.
-check: ratchet floors fields quotes
+limits: ratchet floors fields quotes
+
+# Under two minutes on two processors, with the build.
+CHECK_RUNS := $(addprefix run-test_,blade fold cut piece pair api drawing record image world)
+
+.PHONY: run-check
+
+check: packages-check
+	@$(MAKE) --no-print-directory run-check
+
+run-check: limits $(CHECK_RUNS)
+	@echo "$(words $(CHECK_RUNS)) of $(words $(TEST_RUNS)) programs passed; make test runs all"
 
 # Figures of the sources against tests/ratchet.txt: `$(PYTHON) tests/ratchet.py --lower` makes limits stricter.
 ratchet:

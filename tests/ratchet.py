@@ -1,4 +1,4 @@
-"""Compares figures of the sources with their limits (tests/ratchet.txt), which only get stricter: `make check` runs it.
+"""Compares figures of the sources with their limits (tests/ratchet.txt), which only get stricter: `make limits` runs it.
 
     python3 tests/ratchet.py               fails where a figure is worse than its limit
     python3 tests/ratchet.py --lower       makes each limit stricter whose figure is better

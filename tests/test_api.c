@@ -695,7 +695,6 @@ TEST(DeadIds)
 
 TEST(Nulls)
 {
-    kiriWorld* world;
     kiriWorldDef def = DefaultWorld();
     kiriDefaultWorldDef(NULL);
     kiriDefaultSheetDef(NULL);
