@@ -1656,8 +1656,9 @@ var poolWorldCreateRectangle pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most;
-// 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults.
+// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or rows
+// 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null: the
+// defaults.
 func (w *World) CreateRectangle(width float32, height float32, columns int32, rows int32, def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {

@@ -1364,9 +1364,10 @@ export class World {
     /** Fill the def with its defaults, without a mesh; add a sheet, and destroy one with its cuts, frames and pins. On
      *  failure *sheet is 0. KIRI_ERROR_MESH: the triangles form no sheet; the line names them by index in the def. */
     createSheet(def: SheetDefGiven): Sheet;
-    /** Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
-     *  most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults. */
-    createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
+    /** Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or
+     *  rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null:
+     *  the defaults. */
+    createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
     /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does

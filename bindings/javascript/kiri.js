@@ -1849,7 +1849,7 @@ export class World extends WorldBase {
         }
     }
 
-    createRectangle(width, height, columns, rows, def = null) {
+    createRectangle(width, height, columns = 0, rows = 0, def = null) {
         const $world = pointer(this);
         try {
             if (def) {

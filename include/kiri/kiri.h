@@ -391,8 +391,8 @@ KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
    sides (m, 1 : 256 at most). Other fields are as kiriDefaultSheetDef has them (manual, accuracy). */
 KIRI_API kiriResult kiriGetSetup(int32_t preset, float width, float height, kiriSheetDef* def);
 
-/* Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most; 0: as
-   many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults. */
+/* Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or rows 0: as
+   many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null: the defaults. */
 KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                         const kiriSheetDef* def, kiriSheet* sheet);
 

@@ -662,9 +662,9 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
-        /// most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the
-        /// defaults.</summary>
+        /// <summary>Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
+        /// or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
+        /// null: the defaults.</summary>
         public Sheet CreateRectangle(float width, float height, int columns, int rows, SheetDef? @def = null)
         {
             SheetDef defValue = @def.GetValueOrDefault();

@@ -761,8 +761,9 @@ function Sheet:destroy() end
 ---@return kiri.SheetDef
 function kiri.getSetup(preset, width, height, def) end
 
---- Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at most;
---- 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def null: the defaults.
+--- Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns or
+--- rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null: the
+--- defaults.
 ---@param width number
 ---@param height number
 ---@param columns integer

@@ -169,10 +169,10 @@ class World:
         """Returns the profile of the last tick that was not refused."""
         return core.record(self.get('kiriWorld_GetProfile', 'kiriProfile'), self)
 
-    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Unpack[SheetDef]) -> kiri.Sheet:
-        """Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; 4096 at
-        most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def is not read; def None: the
-        defaults.
+    def create_rectangle(self, width: float, height: float, columns: int = 0, rows: int = 0, **fields: Unpack[SheetDef]) -> kiri.Sheet:
+        """Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
+        or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def
+        None: the defaults.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)

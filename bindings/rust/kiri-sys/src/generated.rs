@@ -1154,8 +1154,8 @@ unsafe extern "C" {
     /// kiriDefaultSheetDef has them (manual, accuracy).
     pub fn kiriGetSetup(preset: i32, width: f32, height: f32, def: *mut kiriSheetDef) -> kiriResult;
     /// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \* columns \* rows
-    /// triangles; 4096 at most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def
-    /// is not read; def null: the defaults.
+    /// triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096.
+    /// The mesh of def is not read; def null: the defaults.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
     /// Get the current settings, and set all or none, with the checks of kiriCreateSheet.
     /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.

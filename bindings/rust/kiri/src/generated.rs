@@ -2627,8 +2627,8 @@ impl World {
     }
 
     /// Adds a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \* columns \* rows
-    /// triangles; 4096 at most; 0: as many as fit the grid, 3 for 2 of its squares. The mesh of def
-    /// is not read; def null: the defaults.
+    /// triangles; columns or rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096.
+    /// The mesh of def is not read; def null: the defaults.
     pub fn create_rectangle(&mut self, width: f32, height: f32, columns: i32, rows: i32, def: Option<&SheetDef<'_>>) -> Result<Sheet> {
         let def = def.map(|def| def.raw());
         let mut sheet = 0;
