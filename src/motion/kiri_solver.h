@@ -148,6 +148,7 @@ typedef struct kiriSystem {
     kiriMaterial material;
     kiriVec3 gravity;
     const kiriAir* air; /* null: none */
+    bool maySettle;     /* a body takes fewer iterations where the objective does not fall any more */
 } kiriSystem;
 
 /* The bodies of a sheet that ticks move, and their frames and links, by body. Bodies that sleep, that are pending or

@@ -1280,7 +1280,8 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
         }
         ++done;
         bool isBad = false;
-        bool isAtRest = solver->touch.isNear && solver->search.promise <= WORTHWHILE * solver->search.now.objective;
+        bool mayRest = solver->touch.isNear || system->maySettle;
+        bool isAtRest = mayRest && solver->search.promise <= WORTHWHILE * solver->search.now.objective;
         isLeft = done < iterations && !isAtRest;
         if (!isLeft && !solver->search.mayFlow && solver->yields) {
             BeginFlow(solver, system, done);

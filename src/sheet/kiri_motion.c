@@ -37,6 +37,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.material = sheet->settings.material;
     system.gravity = gravity;
     system.air = &sheet->settings.air;
+    system.maySettle = kiriTears_AreGrowing(sheet);
     return system;
 }
 
