@@ -542,6 +542,7 @@ struct kiriSolver {
     int32_t elementCount;
     bool isAlong;   /* poses lie on the Gauss-Newton step of the last system */
     bool isHeld;    /* the host holds a frame */
+    bool isPut;     /* the host moves a held frame, so the strains at `start` are not startStrain */
     bool isTouched; /* a contact acts in this step, or a hold carries the body */
     bool yields;    /* the material may flow */
     kiriSupport support;

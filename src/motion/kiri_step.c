@@ -369,8 +369,7 @@ static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* 
 kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
     kiriStepEnergy sum = InertiaEnergy(solver, system, poses);
-    /* Held frames start from where the host puts them: other strains than those at the start of the step. */
-    bool isStart = poses == solver->start.data && !solver->isHeld, hasStops = !system->mechanics.planar;
+    bool isStart = poses == solver->start.data && !solver->isPut, hasStops = !system->mechanics.planar;
     KIRI_TIMES(k, solver->elementCount) {
         double pulling[KIRI_MOST_STRAINS];
         bool isKnown = isStart && kiriElement_Clamp(system, k) == NULL; /* clamps have moved */
@@ -382,8 +381,9 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
         kiriElement_TakeOffsets(system, k, strain, pulling);
         AddElementEnergy(solver, system, k, strain, pulling, &sum);
         AddFlow(&sum, flow);
+        bool counts = !isKnown || solver->isHeld; /* stops at the start do not, unless the host holds a frame */
         solver->stopping.data[k] |=
-            !isKnown && hasStops && kiriElement_IsRigidLink(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
+            counts && hasStops && kiriElement_IsRigidLink(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
     }
     AddHost(solver, system, poses, &sum);
     return sum;
@@ -544,7 +544,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     KIRI_CLEAR(&solver->touch);
     solver->dt = dt;
     solver->elementCount = kiriElement_Count(system);
-    solver->isAlong = solver->isHeld = false;
+    solver->isAlong = solver->isHeld = solver->isPut = false;
     solver->search.scale = 1.0;
     /* Air damping is applied first, so it only takes energy, whatever gravity does to the velocity. The second-order
        form equals exp(-z) up to the third power of z. */
@@ -597,7 +597,9 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     }
     KIRI_TIMES(f, system->frameCount) {
         if (system->frames[f].held) {
+            const kiriPose was = solver->start.data[f];
             solver->start.data[f] = solver->predictions.data[f].pose;
+            solver->isPut |= memcmp(&was, &solver->start.data[f], sizeof(was)) != 0;
         }
     }
     BeginYields(solver, system);
