@@ -346,7 +346,8 @@ static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system,
     const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
     const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
     KIRI_ASSERT(k >= 0 && k < solver->elementCount);
-    KIRI_TIMES(e, kiriElement_StrainCount(system, k)) {
+    int count = kiriElement_StrainCount(system, k);
+    KIRI_TIMES(e, count) {
         double change = strain[e] - start[e];
         AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
     }
