@@ -314,3 +314,31 @@ TEST(FramesWhereCutIs)
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).frames, 100);
 }
+
+/* Rows of a stiff rectangle run along its longer side; their counts differ by one at most. */
+TEST(StraightRowsInStiffRectangles)
+{
+    for (int32_t run = 0; run < 60; ++run) {
+        float length = 0.3f, width = length * (1.0f - 0.0131f * (float)run);
+        int32_t row = 0, least = INT32_MAX, most = 0;
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
+        OK(kiriGetMaterial(KIRI_MATERIAL_CARD, &def.material));
+        def.gridResolution = 64;
+        def.frameCount = 2 + run;
+        Host_AddRectangle(&host, &def, run % 2 ? length : width, run % 2 ? width : length, 20, 20);
+        const kiriSheetData* sheet = host.world->sheets.data[0];
+        assert_int_equal(sheet->frames.count, def.frameCount);
+        for (int32_t i = 0; i < sheet->frames.count; ++i) {
+            kiriVec2 at = sheet->frames.data[i].site.at, next = sheet->frames.data[i + 1 < def.frameCount ? i + 1 : 0].site.at;
+            row += 1;
+            if (fabs(run % 2 || width == length ? at.y - next.y : at.x - next.x) > 1e-6 || i + 1 == def.frameCount) {
+                least = row < least ? row : least;
+                most = row > most ? row : most;
+                row = 0;
+            }
+        }
+        assert_in_range(most, least, least + 1);
+        assert_true(most * most * (double)width < 2.1 * def.frameCount * (double)length); /* nearly square regions */
+    }
+}

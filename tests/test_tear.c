@@ -630,6 +630,7 @@ TEST(NothingCostsWithoutToughness)
 {
     int64_t calls[2];
     uint64_t hash[2];
+    int32_t frames[2];
     for (int k = 0; k < 2; ++k) {
         START_HOST(host);
         Trouser t;
@@ -644,9 +645,9 @@ TEST(NothingCostsWithoutToughness)
         OK(kiriSheet_SetTearing(host.world, t.sheet, &tearing));
         hash[k] = Host_Hash(&host);
         calls[k] = host.calls;
-        assert_int_equal(Host_Counts(&host, t.sheet).frames, 24);
+        frames[k] = Host_Counts(&host, t.sheet).frames;
     }
-    assert_true(hash[0] == hash[1] && calls[0] == calls[1]);
+    assert_true(hash[0] == hash[1] && calls[0] == calls[1] && frames[0] == frames[1]);
 }
 
 /* ---- Arguments --------------------------------------------------------------------------------------------------- */

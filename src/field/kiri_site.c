@@ -539,6 +539,59 @@ static kiriProgress EndRound(PlacerJob* job)
     return KIRI_DONE;
 }
 
+/* ---- Rows in a rectangle ----------------------------------------------------------------------------------------- */
+
+bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t count, int32_t most)
+{
+    kiriMoments sum = { 0 };
+    KIRI_ASSERT(placer->work != NULL && count > 0 && count <= most);
+    KIRI_EACH(const int32_t, at, placer->cells) {
+        const kiriMoments material = kiriGrid_Material(grid, *at);
+        kiriMoments_Add(&sum, &material);
+    }
+    const kiriVec2 center = kiriMoments_Center(&sum);
+    const kiriMoments about = kiriMoments_About(&sum, center);
+    const double size[2] = { sqrt(12.0 * about.uu / sum.area), sqrt(12.0 * about.vv / sum.area) };
+    placer->sites.count = 0;
+    if (!(fabs(size[0] * size[1] - sum.area) < 1e-4 * sum.area)) {
+        return true; /* no rectangle */
+    }
+    const int along = size[1] > 1.001 * size[0]; /* rows run along the longer side */
+    int32_t rows = (int32_t)(sqrt(count * size[1 - along] / size[along]) + 0.5);
+    rows = kiriMax(rows, 1);
+    count = kiriMin((count + rows - 1) / rows * rows, most);
+    if (!kiriArray_Reserve(memory, &placer->sites, count)) {
+        return false;
+    }
+    KIRI_EACH(const int32_t, at, placer->cells) {
+        placer->work->marks.data[*at] = 1; /* no site yet */
+    }
+    bool ok = true;
+    KIRI_TIMES_WHILE(ok, row, rows) {
+        int32_t first = (int32_t)(((int64_t)count * row + rows / 2) / rows);
+        int32_t end = (int32_t)(((int64_t)count * (row + 1) + rows / 2) / rows);
+        KIRI_ASSERT(first < end && end <= count);
+        double step = size[along] / (end - first), width = size[1 - along] * (end - first) / count;
+        ok = (step >= grid->side || end - first == 1) && (width >= grid->side || rows == 1);
+        KIRI_FROM_TO_WHILE(ok, k, first, end) {
+            double u = (k - first + 0.5) * step - 0.5 * size[along];
+            double v = (0.5 * (first + end) / count - 0.5) * size[1 - along];
+            kiriVec2 at = kiriVec2_Add(center, along == 0 ? kiriVec2_Make(u, v) : kiriVec2_Make(v, u));
+            int32_t cell = kiriGrid_CellAt(grid, kiriMesh_Snap(grid->mesh, at));
+            ok = cell != KIRI_NONE && placer->work->marks.data[cell];
+            if (ok) {
+                placer->work->marks.data[cell] = 0;
+                KIRI_NEXT(placer->sites) = (kiriSite){ at, cell };
+            }
+        }
+    }
+    placer->sites.count = ok ? placer->sites.count : 0;
+    KIRI_EACH(const int32_t, at, placer->cells) {
+        placer->work->marks.data[*at] = 0;
+    }
+    return true;
+}
+
 /* ---- The job ----------------------------------------------------------------------------------------------------- */
 
 /* Goes on to the next stage where this one is done. */

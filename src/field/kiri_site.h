@@ -71,6 +71,11 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 
+/* Puts `count` sites, or up to `most` for even rows, in straight rows into the part in placer->cells, if it is a rectangle
+   along the axes and has a square of the grid for each site; otherwise it leaves no sites. Regions have the same area.
+   False when out of memory. */
+bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t count, int32_t most);
+
 /* Starts to place `count` more sites in the part in placer->cells, or one in each free cell where there are fewer. The
    sites in placer->sites lie in the part, each in another cell. Sampling takes only cells that `allowed` marks (one
    byte a cell of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell

@@ -457,6 +457,16 @@ double kiriStrain_PlateStiffness(const kiriMaterial* material)
     return material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
 }
 
+double kiriStrain_BalanceLength(const kiriMaterial* material)
+{
+    double cube = kiriStrain_PlateStiffness(material) / (material->density * (double)material->thickness * 9.81);
+    double root = kiriMax(cube, 1.0);
+    KIRI_TIMES(i, 200) { /* Newton's iteration from above */
+        root = (2.0 * root + cube / (root * root)) / 3.0;
+    }
+    return root;
+}
+
 /* Measures the part along a vector that frame i carries, of a vector that j carries, or of the gap at a point: `from`
    has the arms of the gap, or is null. */
 static double MeasureAlong(kiriVec3 axis, kiriVec3 vector, const EndVectors* from, kiriStrainRow* row)

@@ -128,6 +128,9 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
 /* Returns D of a plate, N m. */
 double kiriStrain_PlateStiffness(const kiriMaterial* material);
 
+/* Returns the length at which bending stiffness and weight of the sheet balance, m. */
+double kiriStrain_BalanceLength(const kiriMaterial* material);
+
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS]);
 
 /* Traces of strain and curvature where three or four regions meet. They couple the links between rigid frames. The

@@ -165,12 +165,8 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
    tests/test_estimate.c. */
 static double SpacingFor(const kiriSheetDef* def, double longer)
 {
-    const kiriMaterial* m = &def->material;
-    double cube = kiriStrain_PlateStiffness(m) / (m->density * (double)m->thickness * 9.81), root = kiriMax(cube, 1.0);
-    KIRI_TIMES(i, 200) { /* Newton's iteration from above */
-        root = (2.0 * root + cube / (root * root)) / 3.0;
-    }
-    return sqrt((double)def->accuracy) * (def->planar ? longer : kiriMin(2.0 * root, longer));
+    double twice = 2.0 * kiriStrain_BalanceLength(&def->material);
+    return sqrt((double)def->accuracy) * (def->planar ? longer : kiriMin(twice, longer));
 }
 
 static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)

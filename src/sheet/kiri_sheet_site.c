@@ -424,6 +424,10 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 #define OPEN_FRAMES_AN_END 15.5
 #define BETWEEN_PINS 0.6 /* spacings: a sheet between pins bends to and fro */
 
+/* Most spacing of straight rows, in lengths at which bending stiffness and weight balance. Softer sheets fold along the rows:
+   cotton that hangs by two corners collapses to a rope. */
+#define ROW_SPACING 1.5
+
 /* Returns the initial count of frames of the current piece, which has `own` frames. */
 static int32_t FramesFor(const kiriSheetData* sheet, int32_t own)
 {
@@ -456,12 +460,24 @@ static double ClosenessFor(const kiriSheetData* sheet, double spacing)
     return kiriMin(closeness, kiriMax(most, 1.0));
 }
 
-/* Starts placing `count` frames, about `spacing` apart, in the current piece: first in pairs at slit ends, at most half
-   of them, then evenly. The slit ends are known, and no site of the piece stays. */
-static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
+/* Starts placing `count` frames, about `spacing` apart, in the current piece: in straight rows, or first in pairs at slit
+   ends, at most half of them, then evenly. The slit ends are known, and none of the `own` sites of the piece stays. */
+static bool StartPlacing(kiriSheetData* sheet, int32_t count, int32_t own, double spacing)
 {
     kiriPlacer* placer = &sheet->update->placing.placer;
     bool isOpen = sheet->settings.frameLength > 0.0;
+    bool isStiff = spacing <= ROW_SPACING * kiriStrain_BalanceLength(&sheet->settings.material);
+    if (placer->ends.count == 0 && count > 1 && isStiff && sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        int32_t room = sheet->settings.maxFrames - sheet->update->placing.sites.count + own;
+        int32_t most = kiriSites_MostIn(placer->cells.count);
+        most = isOpen ? kiriMin(room, most) : count;
+        if (!kiriPlacer_PlaceRows(placer, sheet->memory, &sheet->grid, count, kiriMax(count, most))) {
+            return false;
+        }
+        if (placer->sites.count > 0) {
+            return kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL, 0);
+        }
+    }
     double closeness = ClosenessFor(sheet, spacing), reach = isOpen ? OPEN_REACH : GIVEN_REACH;
     placer->sites.count = 0;
     placer->closeness = closeness;
@@ -572,7 +588,7 @@ static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* c
     }
     int32_t count = FramesFor(sheet, 0);
     placing->pieces -= placing->pieces > 0;
-    return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
+    return StartPlacing(sheet, count, 0, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
 }
 
 static bool IsAtPiece(const kiriSheetData* sheet)
@@ -734,7 +750,7 @@ static bool AddToPiece(kiriSheetData* sheet)
     int32_t more = SitesToAdd(sheet, !old);
     if (placing->isAgain) {
         int32_t count = placing->own.count + more;
-        return StartPlacing(sheet, count, SpacingOf(sheet, count));
+        return StartPlacing(sheet, count, placing->own.count, SpacingOf(sheet, count));
     }
     placing->placer.known = &sheet->regions.field;
     return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, placing->allowed.data, more);

@@ -204,7 +204,7 @@ kiri.DRAW_ALL = 2047
 ---@field gridResolution? integer # grid squares along the longer side, 1 to 4096; default 32
 ---@field snapDistance? number # m: ends of cuts this near to a lip or border meet it (cutting). 0: 1e-4 of the side
 ---@field weldDistance? number # m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
----@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 24
+---@field frameCount? integer # Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount frames are spread evenly, in straight rows over stiff rectangles, or fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts too, to frameLength; 0: it follows from `accuracy`, the relative error (manual, accuracy). 0, or 1 and more; default 24
 ---@field frameLength? number # m; used where frameCount is 0; default 0
 ---@field accuracy? number # 1e-4 to 1; used where frameCount and frameLength are 0; heeds pins of a new sheet; default 0.02
 ---@field framePoints? number[]|ffi.cdata* # 2 floats a frame, or null

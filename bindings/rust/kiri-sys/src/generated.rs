@@ -460,9 +460,10 @@ pub struct kiriSheetDef {
     /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: frameCount frames are spread evenly, or fewer: one for two squares of the grid.
-    /// frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it follows
-    /// from \`accuracy\`, the relative error (manual, accuracy). 0, or 1 and more; default 24
+    /// least; null: frameCount frames are spread evenly, in straight rows over stiff rectangles, or
+    /// fewer: one for two squares of the grid. frameCount 0: regions are split, after cuts too, to
+    /// frameLength; 0: it follows from \`accuracy\`, the relative error (manual, accuracy). 0, or 1
+    /// and more; default 24
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,

@@ -950,10 +950,10 @@ pub struct SheetDef<'a> {
     /// m, 0 or more: merges vertices nearer than this (manual, meshes). Default 0: none
     pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: `frame_count` frames are spread evenly, or fewer: one for two squares of the
-    /// grid. `frame_count` 0: regions are split, after cuts too, to `frame_length`; `frame_length`
-    /// 0: it follows from accuracy, the relative error (manual, accuracy). 0, or 1 and more;
-    /// default 24
+    /// least; null: `frame_count` frames are spread evenly, in straight rows over stiff rectangles,
+    /// or fewer: one for two squares of the grid. `frame_count` 0: regions are split, after cuts
+    /// too, to `frame_length`; 0: it follows from accuracy, the relative error (manual, accuracy).
+    /// 0, or 1 and more; default 24
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
