@@ -68,6 +68,12 @@ static bool AddSewn(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
     return fine && kiriCreateSeam(world, &seam, &made) == KIRI_OK;
 }
 
+/* The cloth has a toughness that nothing reaches. */
+static bool AddTearing(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
+{
+    return kiriSheet_SetTearing(world, sheet, &(kiriTearing){ .toughness = 1e9f, .strength = 1e12f }) == KIRI_OK;
+}
+
 /* The cloth hangs from z = 1 to 0. */
 static bool AddFloor(kiriWorld* world, kiriSheet sheet, kiriSheetDef* def)
 {
@@ -101,6 +107,7 @@ static const Feature features[] = {
     SET("backward Euler", SetEuler), SET("planar", SetPlanar), SET("affine frames", SetAffine),
     SET("integration points", SetPaperPoints), SET("yields", SetYields),
     SET("may yield, and does not", SetNeverYields), { "3 folds", SetNothing, AddFolds, NULL },
+    { "tips that do not tear", SetNothing, AddTearing, NULL },
     { "2 sheets sewn, or apart", SetNothing, AddSewn, AddApart },   { "floor that is touched", SetNothing, AddFloor, NULL },
     { "100 boxes that are touched", SetNothing, AddWall, NULL },    { "1024 boxes, 1 near", SetNothing, AddTown, NULL },
 };
