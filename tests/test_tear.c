@@ -224,10 +224,7 @@ FIGURE(TearFollowsTheGrain)
         Strip s;
         double tip[2];
         Strip_Start(&s, 64, 64);
-        kiriTearing tearing = TearingOf(100.0);
-        tearing.grain[0] = 0.906f; /* 25 degrees */
-        tearing.grain[1] = 0.423f * (float)side;
-        tearing.grainRatio = 5.0f;
+        kiriTearing tearing = { 100.0f, 0.0f, { 0.906f, 0.423f * (float)side }, 5.0f, 0.0f, 0 }; /* 25 degrees */
         OK(kiriSheet_SetTearing(s.host.world, s.sheet, &tearing));
         CutLine(&s.host, s.sheet, -0.01f, 0.1f, 0.02f, 0.1f);
         TearTo(&s, 0.08, tip);
@@ -656,13 +653,8 @@ TEST(TearingIsKept)
 {
     START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
-    kiriTearing tearing = TearingOf(500.0), got;
-    tearing.strength = 1e6f;
+    kiriTearing got, tearing = { 500.0f, 1e6f, { 0.0f, 2.0f }, 3.0f, 0.5f, 2 };
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    tearing.grain[1] = 2.0f;
-    tearing.grainRatio = 3.0f;
-    tearing.maxSpeed = 0.5f;
-    tearing.maxTips = 2;
     OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
     OK(kiriSheet_GetTearing(host.world, sheet, &got));
     assert_memory_equal(&got, &tearing, sizeof(got));
