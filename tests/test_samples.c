@@ -436,7 +436,7 @@ FIGURE(SewnScenes)
 FIGURE(TornScenes)
 {
     static const char* const names[3] = { "letter", "stamps", "poster" };
-    static const double areas[2][3] = { { 0.01728, 0.00432 }, { 9 * 625e-6, 625e-6, 2 * 625e-6 } }; /* m^2 */
+    static const double areas[2][3] = { { 0.01728, 0.00432 }, { 9 * 625e-6, 2 * 625e-6, 625e-6 } }; /* m^2 */
     for (int i = 0; i < 3; i++) {
         SCOPED(Scene, scene, Scene_Stop);
         int32_t pieces = 0;
