@@ -633,6 +633,36 @@ FIGURE(HeavyBodiesRestOnCloth)
     }
 }
 
+TEST(HeavyArmsStayOutOfCurtains)
+{
+    for (int substeps = 2; substeps <= 8; substeps += 6) {
+        START_HOST(host);
+        kiriSheetDef cloth = SheetOf(32, 25);
+        kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
+        const float lying[9] = { 1, 0, 0, 0, 0, 1, 0, -1, 0 }, start[3] = { -0.08f, 0.4f, 0.62f };
+        cloth.axisU[0] = cloth.axisV[1] = 0.0f;
+        cloth.axisU[1] = cloth.axisV[2] = 1.0f;
+        memcpy(def.rotation, lying, sizeof(lying));
+        memcpy(def.position, start, sizeof(start));
+        def.radius = 0.05f;
+        def.mass = 1e4f;
+        def.velocity[0] = 1.0f;
+        kiriSheet sheet = Host_AddRectangle(&host, &cloth, 0.8f, 1.0f, 32, 40);
+        for (int i = 0; i <= 4; ++i) {
+            Host_Pin(&host, sheet, 0.2f * (float)i, 1.0f, 0.0f, 0.2f * (float)i, 1.0f);
+        }
+        Add(&host, &def);
+        for (int tick = 1; tick <= 40; ++tick) {
+            OK(kiriWorld_Tick(host.world, dt, substeps));
+            kiriMesh mesh = World_Mesh(host.world, sheet);
+            for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+                const float* x = &mesh.positions[3 * v];
+                assert_true(hypotf(x[0] + 0.08f - (float)tick * dt, x[2] - 0.62f) > 0.049f || fabsf(x[1] - 0.4f) > 0.2f);
+            }
+        }
+    }
+}
+
 /* A ball without friction gets no torque, and pushes the same with any spin. */
 TEST(SmoothBallsFeelNoTorque)
 {

@@ -30,7 +30,7 @@ kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step
 
 static double DepthAt(const kiriContactStep* step, kiriVec3 point)
 {
-    return step->plane - kiriVec3_Dot(step->row->normal, point);
+    return step->plane - kiriVec3_Dot(step->row->normal, kiriVec3_Sub(point, kiriRecoil_Way(step)));
 }
 
 double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
@@ -40,7 +40,7 @@ double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, 
 
 static kiriVec3 SlideAt(const kiriContactStep* step, kiriVec3 point)
 {
-    kiriVec3 way = kiriVec3_Sub(point, step->start);
+    kiriVec3 way = kiriVec3_Sub(kiriVec3_Sub(point, step->start), kiriRecoil_Way(step));
     return kiriVec3_Across(kiriVec3_Sub(way, step->carried), step->row->normal);
 }
 
@@ -276,6 +276,9 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     }
     WeighMembers(system, step);
     PlacePlane(solver, system, all, count, share, step);
+    if (IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0) {
+        kiriRecoil_Join(solver, step);
+    }
 }
 
 static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
@@ -291,7 +294,7 @@ static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mass = MassOf(system, 0, system->frameCount);
-    solver->contacts.count = 0;
+    solver->contacts.count = solver->recoil.bodies.count = 0;
     KIRI_TIMES(n, solver->islandCount) {
         const kiriIslandBody* member = &solver->islandBodies[n];
         const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];
@@ -362,10 +365,11 @@ static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double de
     double part = solver->stepping.part, inertia = row->mass / (part * part);
     step->soft = SOFT_SHARE * row->reach;
     double least = row->isFold ? FOLD_STIFFNESS : SOFT_STIFFNESS;
-    step->stiffness = kiriMax(2.0 * inertia * depth / row->reach, least * inertia);
-    step->mostStiffness = row->isFold ? step->stiffness : SOFT_GROWTH * step->stiffness;
-    step->grip = GRIP * inertia;
     step->was = kiriVec3_Dot(row->normal, row->force);
+    step->stiffness = kiriMax(2.0 * inertia * depth / row->reach, least * inertia);
+    step->stiffness = kiriMax(step->body != NULL ? 2.0 * step->was / row->reach : 0.0, step->stiffness);
+    step->mostStiffness = row->isFold ? step->stiffness : SOFT_GROWTH * step->stiffness;
+    step->grip = step->body != NULL ? GRIP / SOFT_STIFFNESS * step->stiffness : GRIP * inertia;
     step->known = step->was > 0.0 ? step->was : kiriMax(inertia * depth, 0.0);
     step->limit = row->friction * step->known;
 }
@@ -413,8 +417,9 @@ static double SoftEnergy(const kiriContactStep* step, kiriVec3 point)
 /* Takes the forces of the linear model, after `part` of the solution was taken. */
 static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
 {
-    double whole = 1.0 / part, sinks = whole * (DepthAt(step, point) - step->depth);
-    kiriVec3 slides = kiriVec3_Scale(whole, kiriVec3_Sub(SlideAt(step, point), step->slide));
+    bool isJoined = step->body != NULL; /* frames and obstacle get the forces of the linear model */
+    double whole = 1.0 / part, sinks = isJoined ? step->sinks : whole * (DepthAt(step, point) - step->depth);
+    kiriVec3 slides = isJoined ? step->slides : kiriVec3_Scale(whole, kiriVec3_Sub(SlideAt(step, point), step->slide));
     double push = step->pull + step->spring * sinks;
     slides = step->sticks ? slides : Beside(slides, step->direction);
     kiriVec3 drag = kiriVec3_AddScaled(step->drags, -step->tie, slides);
@@ -461,6 +466,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
 
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 {
+    kiriRecoil_Begin(solver);
     KIRI_EACH(kiriContactStep, contact, solver->contacts) {
         GuessState(solver, system, contact);
     }
@@ -509,7 +515,9 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
         step->depth = DepthAt(step, step->point);
         step->slide = SlideAt(step, step->point);
         if (IsSoft(step->row)) {
+            double share = kiriMax(step->body != NULL ? step->yield->pressed : 0, 1), part = solver->stepping.part;
             LinearizeSoft(step, solver->search.isFirst);
+            step->give = part * part * share * InverseMass(step, step->start, step->row->normal);
             continue;
         }
         SetSprings(solver, step);
@@ -584,8 +592,9 @@ kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, c
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH(kiriContactStep, step, solver->contacts) {
-        if (step->isActive && !IsSoft(step->row)) {
+        if (step->isActive && (!IsSoft(step->row) || step->body != NULL)) {
             kiriVec3 move = kiriSolver_MoveOf(solver, system, step->members, step->memberCount);
+            move = step->body != NULL ? kiriVec3_Sub(move, kiriRecoil_Move(step)) : move;
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
             step->slides = kiriVec3_Across(move, step->row->normal);
         }
@@ -627,7 +636,7 @@ static kiriPointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 {
     bool isSoft = IsSoft(step->row);
     kiriVec3 drag = isSoft ? step->drags : DragOf(step, 0.0);
-    kiriPointSprings at = { { normal }, { isSoft ? step->spring : step->stiffness, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    kiriPointSprings at = { .axis = { normal }, .spring = { isSoft ? step->spring : step->stiffness } };
     FindAxes(step, normal, &at.axis[1]);
     at.spring[2] = isSoft ? step->tie : step->sticks ? step->grip : TurnSpring(step);
     at.spring[1] = step->sticks ? at.spring[2] : 0.0;
@@ -667,6 +676,9 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
         }
     }
     kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
+    if (at->contact != NULL) {
+        kiriRecoil_AddSprings(solver, system, frames, different, J, at->contact, at->share, at);
+    }
 }
 
 /* Adds springs on the members from m on. `share`: sum of their weights. */
@@ -676,6 +688,8 @@ static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriC
     KIRI_TIMES(e, KIRI_POINT_ROWS) {
         at.spring[e] /= share;
     }
+    at.contact = step->body != NULL ? step : NULL;
+    at.share = share;
     kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
 }
 
@@ -835,7 +849,8 @@ static double Yielded(const kiriContactStep* step)
 {
     double held = step->push - kiriMax(step->solved, 0.0);
     double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
-    return step->push > 0.0 ? step->push * step->give + more : 0.0;
+    double push = step->body != NULL ? kiriMax(held, 0.0) : step->push; /* the poses have the rest */
+    return step->push > 0.0 ? push * step->give + more : 0.0;
 }
 
 /* Returns true if a point of the body is too deep. Stores the pushes of the systems in `solved`. */
@@ -1049,7 +1064,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
 double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting)
 {
     kiriVec3 force = kiriContact_Force(solver, step);
-    double work = kiriVec3_Dot(force, step->carried);
+    double work = kiriVec3_Dot(force, kiriVec3_AddScaled(step->carried, 0.5, kiriRecoil_Way(step)));
     if (!solver->touch.isHeldUp) { /* else it is moved out of obstacles, which throws nothing */
         *(OnlyLifts(step) ? lifting : &work) += kiriVec3_Dot(force, step->row->normal) * step->out;
     }
@@ -1162,7 +1177,8 @@ static void GivePushes(const kiriSolver* solver, bool isMore)
 }
 
 /* Limits the ratio `more`: the additional impulse may stop an obstacle, or accelerate it to the speed of the sheet, but
-   no further. The momentum of a cloth can be thousands of times the momentum of a light body on it. */
+   no further, and gives it no more energy than the sheet lost in the step. The momentum of a cloth can be thousands of
+   times the momentum of a light body on it. */
 static double LimitMore(const kiriSolver* solver, double more)
 {
     KIRI_EACH_WHILE(more > 1.0, kiriContactStep, contact, solver->contacts) {
@@ -1171,6 +1187,9 @@ static double LimitMore(const kiriSolver* solver, double more)
             double each = yield->after - yield->before, room = yield->most - yield->before;
             double most = room > each ? room / each : 1.0;
             more = each > 0.0 && more > most ? most : more;
+            double gives = yield->after * yield->after + 2.0 * each * kiriMax(-solver->energy.gain, 0.0);
+            most = each > 0.0 && contact->body != NULL ? 1.0 + (kiriRoot(gives) - yield->after) / each : more;
+            more = kiriMax(kiriMin(most, more), 1.0);
         }
     }
     return more;

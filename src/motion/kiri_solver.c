@@ -389,6 +389,17 @@ static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64
            kiriArray_Reserve(memory, &solver->contacts, contacts);
 }
 
+bool kiriSolver_ReserveBodies(kiriSolver* solver, int64_t bodies, int64_t frames)
+{
+    kiriMemory* memory = solver->memory;
+    int64_t count = KIRI_RECOILS * bodies, all = frames * solver->size;
+    return bodies == 0 || (kiriArray_Reserve(memory, &solver->recoil.bodies, bodies) &&
+                           kiriArray_Reserve(memory, &solver->recoil.border, count * all) &&
+                           kiriArray_Reserve(memory, &solver->recoil.corner, count * count) &&
+                           kiriArray_Reserve(memory, &solver->recoil.pull, count) &&
+                           kiriArray_Reserve(memory, &solver->recoil.right, all + count));
+}
+
 bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
     return ReserveTaken(solver, pins, clamps, contacts) &&
@@ -757,6 +768,7 @@ static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int3
 {
     kiriMemory* memory = solver->memory;
     int64_t links = 0, corners = 0, areas = 0, shares = 0, pins = 0, clamps = 0, contacts = 0;
+    int64_t yields = 0, frames = 0;
     KIRI_TIMES(n, count) {
         const kiriSolverBody* body = BodyOfMember(&bodies[n]);
         links += body->links.count;
@@ -766,8 +778,10 @@ static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int3
         pins += bodies[n].sheet->pinCount;
         clamps += bodies[n].sheet->clampCount;
         contacts += bodies[n].sheet->contactCount;
+        yields += bodies[n].sheet->yieldCount;
+        frames += body->frames.count;
     }
-    bool ok = kiriArray_Reserve(memory, &solver->islandLinks, links) &&
+    bool ok = kiriSolver_ReserveBodies(solver, yields, frames) && kiriArray_Reserve(memory, &solver->islandLinks, links) &&
               kiriArray_Reserve(memory, &solver->islandCorners, corners) &&
               kiriArray_Reserve(memory, &solver->islandElements.elements, areas) &&
               kiriArray_Reserve(memory, &solver->islandElements.shares, shares) &&

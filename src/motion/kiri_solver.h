@@ -13,6 +13,8 @@
 
 KIRI_C_BEGIN
 
+enum { KIRI_RECOILS = 6 };
+
 /* The other side of contacts, if it can move: a body of the host, an obstacle, or another piece. */
 typedef struct kiriYieldRow {
     int64_t number;          /* id chosen by the code that writes the row */
@@ -25,6 +27,12 @@ typedef struct kiriYieldRow {
     /* Scratch, N s m/s, see kiri_contact_row.c: sums of push times speed along it, before and after the pushes act, and
        the upper limit of `after`. */
     double before, after, most;
+    /* Scratch: unknowns of the obstacle in a step (kiri_recoil.c). It moves by `moving` times the first three, and turns by
+       `turning` times the others. from: so far; at: of the poses that are tried; move: by the last system. */
+    int32_t place; /* of the first unknown */
+    double moving;
+    kiriMat3 turning;
+    double from[KIRI_RECOILS], at[KIRI_RECOILS], move[KIRI_RECOILS];
 } kiriYieldRow;
 
 typedef struct kiriSolver kiriSolver;
@@ -186,6 +194,9 @@ bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_
 
 /* Reserves room for the rows of steps. Fails on out of memory. */
 bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts);
+
+/* The same for obstacles with a mass. */
+bool kiriSolver_ReserveBodies(kiriSolver* solver, int64_t bodies, int64_t frames);
 
 /* Sets whether ticks move a body. */
 void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved);
@@ -419,6 +430,8 @@ typedef struct kiriStepEnergy {
 typedef struct kiriContactStep {
     kiriContactRow* row;
     kiriYieldRow* yield; /* of the row, or null */
+    kiriYieldRow* body;  /* the same if its unknowns are in the system */
+    kiriVec3 arm;        /* m: from the centre of `body` */
     kiriContactMember members[KIRI_CONTACT_MEMBERS];
     int32_t memberCount, coupledCount; /* the first ones all have blocks of the matrix in common */
     bool isHeld;      /* the host holds half of the frames or more, by weight */
@@ -512,6 +525,15 @@ typedef struct kiriSolverBodies {
     kiriAreaElements areaElements;    /* refer to frames of the body; shares in the order of the sheet */
 } kiriSolverBodies;
 
+/* The obstacles of a step that have a mass, and what couples them with the frames. */
+typedef struct kiriRecoil {
+    KIRI_ARRAY(kiriYieldRow*) bodies;
+    /* border: a column of the matrix for each unknown of an obstacle; corner: their own block; pull: right-hand side, then
+       solution. */
+    kiriReals border, corner, pull, right;
+    double promise; /* J: share of kiriSearch.promise */
+} kiriRecoil;
+
 struct kiriSolver {
     kiriMemory* memory;
     kiriMechanics mechanics;
@@ -556,6 +578,7 @@ struct kiriSolver {
     KIRI_ARRAY(kiriClampRow) clamps;
     KIRI_ARRAY(kiriClampRow*) clampRows; /* per clamp: its row in the sheet */
     KIRI_ARRAY(kiriContactStep) contacts;
+    kiriRecoil recoil;
     KIRI_ARRAY(kiriLinkPart) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;
     KIRI_ARRAY(kiriPlastic) plastics;
@@ -733,12 +756,40 @@ enum { KIRI_POINT_ROWS = 3 };
 typedef struct kiriPointSprings {
     kiriVec3 axis[KIRI_POINT_ROWS];
     double spring[KIRI_POINT_ROWS], pull[KIRI_POINT_ROWS];
+    const kiriContactStep* contact; /* with an obstacle in the system, or null */
+    double share;                   /* of the contact's members, by weight */
 } kiriPointSprings;
 
 /* Adds the springs to the system. A frame may carry both points. ways[]: springs on the blend of these vectors of the
    material (u, v, normal), one a member; null: on the point. */
 void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
                                 int32_t count, const kiriVec3* ways, const kiriPointSprings* at);
+
+/* ---- Obstacles with a mass (kiri_recoil.c) ----
+
+   An obstacle that soft contacts touch has six unknowns in the system, and is in the line search. They are solved last: so
+   the pattern of the frames does not change. */
+
+/* Lists the obstacle of a contact. */
+void kiriRecoil_Join(kiriSolver* solver, kiriContactStep* step);
+
+/* Return the way of the obstacle at the contact beyond its velocity, m: at the poses that are tried; by the last system. */
+kiriVec3 kiriRecoil_Way(const kiriContactStep* step);
+kiriVec3 kiriRecoil_Move(const kiriContactStep* step);
+
+/* Begin sets all unknowns to 0. Clear begins a system. AddSprings adds springs of a contact; J: the derivatives for the
+   frames; share: of the members, by weight. Solve solves the whole system, and fails if it has no factor. Try sets the
+   unknowns to a part of the solution; Take keeps them. */
+void kiriRecoil_Begin(const kiriSolver* solver);
+void kiriRecoil_Clear(kiriSolver* solver, int32_t frameCount);
+void kiriRecoil_AddSprings(kiriSolver* solver, const kiriSystem* system, const int32_t* frames, int32_t frameCount,
+                           const double* J, const kiriContactStep* step, double share, const kiriPointSprings* at);
+bool kiriRecoil_Solve(kiriSolver* solver, int32_t frameCount);
+void kiriRecoil_Try(const kiriSolver* solver, double part);
+void kiriRecoil_Take(const kiriSolver* solver);
+
+/* Returns the inertia of the obstacles in the objective, J. */
+double kiriRecoil_Energy(const kiriSolver* solver);
 
 /* Returns the move of a point by the solution, to first order. */
 kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,

@@ -319,6 +319,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
+    AddEnergy(sum, 0.0, kiriRecoil_Energy(solver));
     int32_t springs = kiriSystem_HasWind(system) ? SAMPLES * system->frameCount : 0;
     KIRI_TIMES(n, springs) {
         Spring spring = SpringOfWind(solver, system, n / SAMPLES, n % SAMPLES);
@@ -828,6 +829,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_ASSERT(solver->matrix->count == system->frameCount);
     kiriMatrix_Clear(solver->matrix);
+    kiriRecoil_Clear(solver, system->frameCount);
     kiriSolver_LinearizeContacts(solver, system);
     KIRI_TIMES(f, system->frameCount) {
         memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
@@ -1080,7 +1082,7 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
     kiriSearch* search = &solver->search;
     double longest = LONGEST_ITERATION_TURN;
     search->enough = search->now.objective * (1.0 + KIRI_ROUNDING) + search->noise;
-    search->promise = 0.0;
+    search->promise = solver->recoil.promise;
     KIRI_TIMES(f, system->frameCount) {
         KIRI_FROM_TO(n, solver->size * f, solver->size * (f + 1)) {
             search->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
@@ -1120,6 +1122,7 @@ static void TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
                                       ? kiriMat3_Advance(&pose->A, &columns)
                                       : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
     }
+    kiriRecoil_Try(solver, solver->search.scale);
     solver->isAlong = true;
     kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->trial.data);
     solver->isAlong = false;
@@ -1138,6 +1141,7 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
         solver->trial.data[f] = solver->predictions.data[f].pose;
     }
     double rise = MOST_RISE * solver->search.now.objective;
+    kiriRecoil_Try(solver, 0.0);
     double predicted = kiriObjective_Evaluate(solver, system, solver->trial.data).objective;
     double allowed = kiriMax(predicted, rise) * (1.0 + KIRI_ROUNDING) + solver->search.noise;
     solver->search.enough = kiriMax(allowed, solver->search.enough);
@@ -1149,10 +1153,9 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSearch* search = &solver->search;
     search->now = kiriSolver_Assemble(solver, system);
-    if (!kiriMatrix_Factor(solver->matrix)) {
+    if (!kiriMatrix_Factor(solver->matrix) || !kiriRecoil_Solve(solver, system->frameCount)) {
         return false;
     }
-    kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
     kiriSolver_MoveContacts(solver, system);
     kiriStitches_Solve(solver, system);
     SolveReactions(solver, system);
@@ -1171,6 +1174,8 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     ++solver->solved;
     kiriStitches_TakeForces(solver, system);
     double part = search->isTaken ? search->scale : 0.0;
+    kiriRecoil_Try(solver, part);
+    kiriRecoil_Take(solver);
     EACH_REACTION(reaction) {
         kiriWrench_Add(&reaction->now, -part, &reaction->now);
         kiriWrench_Add(&reaction->now, part, &reaction->solved);

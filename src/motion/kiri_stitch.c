@@ -65,7 +65,7 @@ double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system)
 static void AddSprings(kiriSolver* solver, const kiriSystem* system, const kiriStitchRow* row, const kiriVec3* ways,
                        double k, kiriVec3 pull)
 {
-    kiriPointSprings at = { KIRI_AXES, { k, k, k }, { pull.x, pull.y, pull.z } };
+    kiriPointSprings at = { .axis = KIRI_AXES, .spring = { k, k, k }, .pull = { pull.x, pull.y, pull.z } };
     kiriSolver_AddPointSprings(solver, system, row->members, CountOf(row), ways, &at);
 }
 

@@ -887,8 +887,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             1,
                             sqrt(sheet->settings.friction * obstacle->friction),
                             yield,
-                            obstacle->shape.type == KIRI_OBSTACLE_PLANE ||
-                                kiriTouches_CanYield(sheet, yield) };
+                            obstacle->shape.type == KIRI_OBSTACLE_PLANE || kiriTouches_CanYield(sheet, yield) };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     meeting.square = sheet->mesh.step * sheet->mesh.squares.side;
     meeting.squares = PatchSide(sheet, meeting.square);

@@ -514,7 +514,13 @@ bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
 
 bool kiriTouches_Reserve(kiriSheetData* sheet)
 {
-    return sheet->touches.found.count == 0 || kiriTouches_Room(sheet, sheet->touches.found.capacity);
+    int32_t bodies = 0;
+    KIRI_EACH(const kiriYieldRow, row, sheet->touches.yields) {
+        bodies += row->inverseMass > 0.0;
+    }
+    return sheet->touches.found.count == 0 ||
+           (kiriTouches_Room(sheet, sheet->touches.found.capacity) &&
+            kiriSolver_ReserveBodies(sheet->solver, bodies, sheet->solver->before.capacity));
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -613,6 +619,8 @@ static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriContactMember
     return x;
 }
 
+#define LIGHT 30.0 /* samples: lighter bodies have hard contacts, or they are thrown */
+
 static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, double sampleMass, kiriContactRow* row)
 {
     TouchBlend blend = BlendOf(sheet, touch);
@@ -622,7 +630,9 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->velocity = touch->velocity;
     row->friction = touch->friction;
     row->pushSpeed = touch->pushSpeed;
-    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !kiriTouches_CanYield(sheet, touch->yield)) {
+    double inverse = touch->yield != KIRI_NONE ? sheet->touches.yields.data[touch->yield].inverseMass : 0.0;
+    bool isHard = inverse > 0.0 && (sheet->settings.mechanics.planar || inverse * LIGHT * sampleMass > 1.0);
+    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !isHard) {
         row->mass = sampleMass;
         row->reach = 0.5 * sheet->settings.contactThickness;
     }

@@ -517,9 +517,9 @@ static void TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt
         const kiriContactRow* row = touch->row != KIRI_NONE ? &touches->rows.data[touch->row] : NULL;
         kiriObstacleData* obstacle = row != NULL ? OwnerOfKey(world, row->key) : NULL;
         if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
-            kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
+            (areMovable || kiriVec3_Dot(row->impulse, row->normal) > 0.0)) {
             kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), touch->on);
-            obstacle->contacts += 1;
+            obstacle->contacts += kiriVec3_Dot(row->impulse, row->normal) > 0.0;
         }
     }
 }
