@@ -639,11 +639,11 @@ TEST(HeavyArmsStayOutOfCurtains)
         START_HOST(host);
         kiriSheetDef cloth = SheetOf(32, 25);
         kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
-        const float lying[9] = { 1, 0, 0, 0, 0, 1, 0, -1, 0 }, start[3] = { -0.08f, 0.4f, 0.62f };
+        const float lying[9] = { 1, 0, 0, 0, 0, 1, 0, -1, 0 };
         cloth.axisU[0] = cloth.axisV[1] = 0.0f;
         cloth.axisU[1] = cloth.axisV[2] = 1.0f;
         memcpy(def.rotation, lying, sizeof(lying));
-        memcpy(def.position, start, sizeof(start));
+        Set3(def.position, -0.08f, 0.4f, 0.62f);
         def.radius = 0.05f;
         def.mass = 1e4f;
         def.velocity[0] = 1.0f;

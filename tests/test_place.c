@@ -331,7 +331,7 @@ TEST(StraightRowsInStiffRectangles)
         assert_int_equal(sheet->frames.count, def.frameCount);
         for (int32_t i = 0; i < sheet->frames.count; ++i) {
             kiriVec2 at = sheet->frames.data[i].site.at, next = sheet->frames.data[i + 1 < def.frameCount ? i + 1 : 0].site.at;
-            row += 1;
+            ++row;
             if (fabs(run % 2 || width == length ? at.y - next.y : at.x - next.x) > 1e-6 || i + 1 == def.frameCount) {
                 least = row < least ? row : least;
                 most = row > most ? row : most;
