@@ -799,7 +799,7 @@ kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, c
 kiriVec3 kiriSystem_Blend(const kiriSystem* system, const kiriContactMember* members, int32_t count,
                           const kiriPose* poses);
 
-/* ---- Stitches (kiri_stitch.c) ----
+/* ---- Stitches ----
 
    A stitch is an elastic energy of the objective, like an element: 1/2 k |a - b - off|^2, with a and b its points. Its
    force is an inner one, so bodies that stitches join keep their momentum, without a lag. */
