@@ -150,10 +150,10 @@ class Godot:
     def _struct(self, struct):
         name, upper = struct["name"], self._struct_name(struct["name"])
         fields = [self._field(struct, field, kind) for field, kind in self.fields(struct)]
-        size, fill = f"(int)sizeof({name})", f"Fill{naming.bare(name)}" if "default" in struct else "NULL"
+        size, fill = f"SIZE_OF({name})", f"Fill{naming.bare(name)}" if "default" in struct else "NULL"
         lines, masks = [], "NULL"
         if name == "kiriWorldDef":
-            size, fill = "(int)sizeof(HostDef)", "FillWorldDef"
+            size, fill = "SIZE_OF(HostDef)", "FillWorldDef"
             fields += [f'    {{ "{extra}", TYPE_FLAG, KIND_BOOL, (int)offsetof(HostDef, {extra}), 1, 0, 0, 0, CLASS_NONE, NULL }},'
                        for extra in ("record", "clock")]
         elif "default" in struct:

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_PARAMETERS = 12, ROOM = 256, FIRST_CAPACITY = 64 };
+enum { MOST_PARAMETERS = 12, FIRST_CAPACITY = 64 };
 
 /* A parameter: a number, a struct, or where rows are. */
 typedef union Value {

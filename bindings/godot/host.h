@@ -31,7 +31,9 @@ typedef enum Kind {
     KIND_COUNT
 } Kind;
 
-enum { MOST_TEXT = 256, MOST_ARGUMENTS = 8 };
+/* ROOM: bytes for a struct that a call takes or gives. SIZE_OF does not compile for a larger one. */
+enum { MOST_TEXT = 256, MOST_ARGUMENTS = 8, ROOM = 320 };
+#define SIZE_OF(Type) ((int)(sizeof(Type) * sizeof(char[sizeof(Type) <= ROOM ? 1 : -1])))
 
 /* An object of one of the classes; see objects.h. */
 typedef struct Self Self;

@@ -15,7 +15,7 @@ static const Field BUDGET_FIELDS[] = {
     { "iterations", TYPE_INT32, KIND_INT, (int)offsetof(kiriBudget, iterations), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct BUDGET = { "Budget", (int)sizeof(kiriBudget), 4, BUDGET_FIELDS, NULL, NULL };
+static const Struct BUDGET = { "Budget", SIZE_OF(kiriBudget), 4, BUDGET_FIELDS, NULL, NULL };
 
 static const Field WORLD_DEF_FIELDS[] = {
     { "gravity", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriWorldDef, gravity), 3, 0, 0, 0, CLASS_NONE, NULL },
@@ -26,7 +26,7 @@ static const Field WORLD_DEF_FIELDS[] = {
     { "clock", TYPE_FLAG, KIND_BOOL, (int)offsetof(HostDef, clock), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct WORLD_DEF = { "WorldDef", (int)sizeof(HostDef), 6, WORLD_DEF_FIELDS, FillWorldDef, NULL };
+const Struct WORLD_DEF = { "WorldDef", SIZE_OF(HostDef), 6, WORLD_DEF_FIELDS, FillWorldDef, NULL };
 
 static const Field REPLAY_FIELDS[] = {
     { "offset", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, offset), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -35,7 +35,7 @@ static const Field REPLAY_FIELDS[] = {
     { "note", TYPE_BYTE, KIND_BYTES, (int)offsetof(kiriReplay, note), 1, (int)offsetof(kiriReplay, noteCount), 1, 1, CLASS_NONE, NULL },
 };
 
-static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
+static const Struct REPLAY = { "Replay", SIZE_OF(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
 static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603, 0x7, 0x7, 0x43 };
@@ -54,7 +54,7 @@ static const Field EVENT_FIELDS[] = {
     { "stitches", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, stitches), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct EVENT = { "Event", (int)sizeof(kiriEvent), 11, EVENT_FIELDS, NULL, EVENT_MASKS };
+static const Struct EVENT = { "Event", SIZE_OF(kiriEvent), 11, EVENT_FIELDS, NULL, EVENT_MASKS };
 
 static const Field PROFILE_FIELDS[] = {
     { "seconds", TYPE_DOUBLE, KIND_FLOATS, (int)offsetof(kiriProfile, seconds), 9, 0, 0, 0, CLASS_NONE, NULL },
@@ -76,7 +76,7 @@ static const Field PROFILE_FIELDS[] = {
     { "largest_fade", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriProfile, largestFade), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct PROFILE = { "Profile", (int)sizeof(kiriProfile), 17, PROFILE_FIELDS, NULL, NULL };
+static const Struct PROFILE = { "Profile", SIZE_OF(kiriProfile), 17, PROFILE_FIELDS, NULL, NULL };
 
 static const Field MATERIAL_FIELDS[] = {
     { "youngs_modulus", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, youngsModulus), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -92,7 +92,7 @@ static const Field MATERIAL_FIELDS[] = {
     { "rest_curvature", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriMaterial, restCurvature), 3, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 11, MATERIAL_FIELDS, NULL, NULL };
+static const Struct MATERIAL = { "Material", SIZE_OF(kiriMaterial), 11, MATERIAL_FIELDS, NULL, NULL };
 
 static const Field QUALITY_FIELDS[] = {
     { "frames_along", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, framesAlong), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -101,7 +101,7 @@ static const Field QUALITY_FIELDS[] = {
     { "substeps", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, substeps), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct QUALITY = { "Quality", (int)sizeof(kiriQuality), 4, QUALITY_FIELDS, NULL, NULL };
+static const Struct QUALITY = { "Quality", SIZE_OF(kiriQuality), 4, QUALITY_FIELDS, NULL, NULL };
 
 static const Field PAPER_OPTIONS_FIELDS[] = {
     { "from_scratch", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriPaperOptions, fromScratch), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -111,7 +111,7 @@ static const Field PAPER_OPTIONS_FIELDS[] = {
     { "integration_order", TYPE_INT32, KIND_INT, (int)offsetof(kiriPaperOptions, integrationOrder), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct PAPER_OPTIONS = { "PaperOptions", (int)sizeof(kiriPaperOptions), 5, PAPER_OPTIONS_FIELDS, NULL, NULL };
+static const Struct PAPER_OPTIONS = { "PaperOptions", SIZE_OF(kiriPaperOptions), 5, PAPER_OPTIONS_FIELDS, NULL, NULL };
 
 static void FillSheetDef(void* filled)
 {
@@ -154,7 +154,7 @@ static const Field SHEET_DEF_FIELDS[] = {
     { "paper", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetDef, paper), 1, 0, 0, 0, CLASS_NONE, &PAPER_OPTIONS },
 };
 
-static const Struct SHEET_DEF = { "SheetDef", (int)sizeof(kiriSheetDef), 33, SHEET_DEF_FIELDS, FillSheetDef, NULL };
+static const Struct SHEET_DEF = { "SheetDef", SIZE_OF(kiriSheetDef), 33, SHEET_DEF_FIELDS, FillSheetDef, NULL };
 
 static const Field SHEET_SETTINGS_FIELDS[] = {
     { "material", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetSettings, material), 1, 0, 0, 0, CLASS_NONE, &MATERIAL },
@@ -173,7 +173,7 @@ static const Field SHEET_SETTINGS_FIELDS[] = {
     { "normals", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriSheetSettings, normals), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct SHEET_SETTINGS = { "SheetSettings", (int)sizeof(kiriSheetSettings), 14, SHEET_SETTINGS_FIELDS, NULL, NULL };
+const Struct SHEET_SETTINGS = { "SheetSettings", SIZE_OF(kiriSheetSettings), 14, SHEET_SETTINGS_FIELDS, NULL, NULL };
 
 static const Field FOLD_FIELDS[] = {
     { "from", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFold, from), 2, 0, 0, 0, CLASS_NONE, NULL },
@@ -183,7 +183,7 @@ static const Field FOLD_FIELDS[] = {
     { "yield_moment", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriFold, yieldMoment), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct FOLD = { "Fold", (int)sizeof(kiriFold), 5, FOLD_FIELDS, NULL, NULL };
+static const Struct FOLD = { "Fold", SIZE_OF(kiriFold), 5, FOLD_FIELDS, NULL, NULL };
 
 static const Field FOLD_STATE_FIELDS[] = {
     { "fold", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriFoldState, fold), 1, 0, 0, 0, CLASS_NONE, &FOLD },
@@ -191,7 +191,7 @@ static const Field FOLD_STATE_FIELDS[] = {
     { "length", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriFoldState, length), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct FOLD_STATE = { "FoldState", (int)sizeof(kiriFoldState), 3, FOLD_STATE_FIELDS, NULL, NULL };
+static const Struct FOLD_STATE = { "FoldState", SIZE_OF(kiriFoldState), 3, FOLD_STATE_FIELDS, NULL, NULL };
 
 static const Field MESH_FIELDS[] = {
     { "positions", TYPE_FLOAT, KIND_VECTORS3, (int)offsetof(kiriMesh, positions), 1, (int)offsetof(kiriMesh, vertexCount), 3, 0, CLASS_NONE, NULL },
@@ -203,14 +203,14 @@ static const Field MESH_FIELDS[] = {
     { "revision", TYPE_UINT32, KIND_INT, (int)offsetof(kiriMesh, revision), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MESH = { "Mesh", (int)sizeof(kiriMesh), 7, MESH_FIELDS, NULL, NULL };
+static const Struct MESH = { "Mesh", SIZE_OF(kiriMesh), 7, MESH_FIELDS, NULL, NULL };
 
 static const Field RANGE_FIELDS[] = {
     { "first", TYPE_INT32, KIND_INT, (int)offsetof(kiriRange, first), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "count", TYPE_INT32, KIND_INT, (int)offsetof(kiriRange, count), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct RANGE = { "Range", (int)sizeof(kiriRange), 2, RANGE_FIELDS, NULL, NULL };
+static const Struct RANGE = { "Range", SIZE_OF(kiriRange), 2, RANGE_FIELDS, NULL, NULL };
 
 static const Field DIRTY_FIELDS[] = {
     { "new_vertices", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriDirty, newVertices), 1, 0, 0, 0, CLASS_NONE, &RANGE },
@@ -220,7 +220,7 @@ static const Field DIRTY_FIELDS[] = {
     { "revision", TYPE_UINT32, KIND_INT, (int)offsetof(kiriDirty, revision), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct DIRTY = { "Dirty", (int)sizeof(kiriDirty), 5, DIRTY_FIELDS, NULL, NULL };
+static const Struct DIRTY = { "Dirty", SIZE_OF(kiriDirty), 5, DIRTY_FIELDS, NULL, NULL };
 
 static const Field SOLID_FIELDS[] = {
     { "positions", TYPE_FLOAT, KIND_VECTORS3, (int)offsetof(kiriSolid, positions), 1, (int)offsetof(kiriSolid, vertexCount), 3, 0, CLASS_NONE, NULL },
@@ -231,7 +231,7 @@ static const Field SOLID_FIELDS[] = {
     { "rim_triangle", TYPE_INT32, KIND_INT, (int)offsetof(kiriSolid, rimTriangle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct SOLID = { "Solid", (int)sizeof(kiriSolid), 6, SOLID_FIELDS, NULL, NULL };
+static const Struct SOLID = { "Solid", SIZE_OF(kiriSolid), 6, SOLID_FIELDS, NULL, NULL };
 
 static const Field COUNTS_FIELDS[] = {
     { "vertices", TYPE_INT32, KIND_INT, (int)offsetof(kiriCounts, vertices), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -243,7 +243,7 @@ static const Field COUNTS_FIELDS[] = {
     { "collision_points", TYPE_INT32, KIND_INT, (int)offsetof(kiriCounts, collisionPoints), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct COUNTS = { "Counts", (int)sizeof(kiriCounts), 7, COUNTS_FIELDS, NULL, NULL };
+static const Struct COUNTS = { "Counts", SIZE_OF(kiriCounts), 7, COUNTS_FIELDS, NULL, NULL };
 
 static const Field TOTALS_FIELDS[] = {
     { "area", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriTotals, area), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -255,7 +255,7 @@ static const Field TOTALS_FIELDS[] = {
     { "angular_momentum", TYPE_DOUBLE, KIND_VECTOR3, (int)offsetof(kiriTotals, angularMomentum), 3, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct TOTALS = { "Totals", (int)sizeof(kiriTotals), 7, TOTALS_FIELDS, NULL, NULL };
+static const Struct TOTALS = { "Totals", SIZE_OF(kiriTotals), 7, TOTALS_FIELDS, NULL, NULL };
 
 static const Field HIT_FIELDS[] = {
     { "rest_point", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriHit, restPoint), 2, 0, 0, 0, CLASS_NONE, NULL },
@@ -265,7 +265,7 @@ static const Field HIT_FIELDS[] = {
     { "triangle", TYPE_INT32, KIND_INT, (int)offsetof(kiriHit, triangle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct HIT = { "Hit", (int)sizeof(kiriHit), 5, HIT_FIELDS, NULL, NULL };
+const Struct HIT = { "Hit", SIZE_OF(kiriHit), 5, HIT_FIELDS, NULL, NULL };
 
 static const Field POINT_STATE_FIELDS[] = {
     { "position", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriPointState, position), 3, 0, 0, 0, CLASS_NONE, NULL },
@@ -274,7 +274,7 @@ static const Field POINT_STATE_FIELDS[] = {
     { "frame", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriPointState, frame), 1, 0, 0, 0, CLASS_FRAME, NULL },
 };
 
-static const Struct POINT_STATE = { "PointState", (int)sizeof(kiriPointState), 4, POINT_STATE_FIELDS, NULL, NULL };
+static const Struct POINT_STATE = { "PointState", SIZE_OF(kiriPointState), 4, POINT_STATE_FIELDS, NULL, NULL };
 
 static const Field PIECE_STATE_FIELDS[] = {
     { "area", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriPieceState, area), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -292,7 +292,7 @@ static const Field PIECE_STATE_FIELDS[] = {
     { "asleep", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriPieceState, asleep), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct PIECE_STATE = { "PieceState", (int)sizeof(kiriPieceState), 13, PIECE_STATE_FIELDS, NULL, NULL };
+static const Struct PIECE_STATE = { "PieceState", SIZE_OF(kiriPieceState), 13, PIECE_STATE_FIELDS, NULL, NULL };
 
 static const Field PIECE_MESH_FIELDS[] = {
     { "vertices", TYPE_INT32, KIND_INTS, (int)offsetof(kiriPieceMesh, vertices), 1, (int)offsetof(kiriPieceMesh, vertexCount), 1, 0, CLASS_NONE, NULL },
@@ -301,7 +301,7 @@ static const Field PIECE_MESH_FIELDS[] = {
     { "collision_points", TYPE_INT32, KIND_INTS, (int)offsetof(kiriPieceMesh, collisionPoints), 1, (int)offsetof(kiriPieceMesh, collisionPointCount), 1, 0, CLASS_NONE, NULL },
 };
 
-static const Struct PIECE_MESH = { "PieceMesh", (int)sizeof(kiriPieceMesh), 4, PIECE_MESH_FIELDS, NULL, NULL };
+static const Struct PIECE_MESH = { "PieceMesh", SIZE_OF(kiriPieceMesh), 4, PIECE_MESH_FIELDS, NULL, NULL };
 
 static const Field TEARING_FIELDS[] = {
     { "toughness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriTearing, toughness), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -312,7 +312,7 @@ static const Field TEARING_FIELDS[] = {
     { "max_tips", TYPE_INT32, KIND_INT, (int)offsetof(kiriTearing, maxTips), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct TEARING = { "Tearing", (int)sizeof(kiriTearing), 6, TEARING_FIELDS, NULL, NULL };
+static const Struct TEARING = { "Tearing", SIZE_OF(kiriTearing), 6, TEARING_FIELDS, NULL, NULL };
 
 static const Field FRAME_STATE_FIELDS[] = {
     { "rest_point", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFrameState, restPoint), 2, 0, 0, 0, CLASS_NONE, NULL },
@@ -325,7 +325,7 @@ static const Field FRAME_STATE_FIELDS[] = {
     { "held", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriFrameState, held), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct FRAME_STATE = { "FrameState", (int)sizeof(kiriFrameState), 8, FRAME_STATE_FIELDS, NULL, NULL };
+static const Struct FRAME_STATE = { "FrameState", SIZE_OF(kiriFrameState), 8, FRAME_STATE_FIELDS, NULL, NULL };
 
 static const Field WIND_FIELDS[] = {
     { "velocity", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriWind, velocity), 3, 0, 0, 0, CLASS_NONE, NULL },
@@ -334,7 +334,7 @@ static const Field WIND_FIELDS[] = {
     { "lift", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriWind, lift), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct WIND = { "Wind", (int)sizeof(kiriWind), 4, WIND_FIELDS, NULL, NULL };
+static const Struct WIND = { "Wind", SIZE_OF(kiriWind), 4, WIND_FIELDS, NULL, NULL };
 
 static void FillPinDef(void* filled)
 {
@@ -349,7 +349,7 @@ static const Field PIN_DEF_FIELDS[] = {
     { "obstacle", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriPinDef, obstacle), 1, 0, 0, 0, CLASS_OBSTACLE, NULL },
 };
 
-static const Struct PIN_DEF = { "PinDef", (int)sizeof(kiriPinDef), 5, PIN_DEF_FIELDS, FillPinDef, NULL };
+static const Struct PIN_DEF = { "PinDef", SIZE_OF(kiriPinDef), 5, PIN_DEF_FIELDS, FillPinDef, NULL };
 
 static const Field PIN_STATE_FIELDS[] = {
     { "type", TYPE_INT32, KIND_INT, (int)offsetof(kiriPinState, type), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -362,7 +362,7 @@ static const Field PIN_STATE_FIELDS[] = {
     { "obstacle", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriPinState, obstacle), 1, 0, 0, 0, CLASS_OBSTACLE, NULL },
 };
 
-static const Struct PIN_STATE = { "PinState", (int)sizeof(kiriPinState), 8, PIN_STATE_FIELDS, NULL, NULL };
+static const Struct PIN_STATE = { "PinState", SIZE_OF(kiriPinState), 8, PIN_STATE_FIELDS, NULL, NULL };
 
 static void FillSeamDef(void* filled)
 {
@@ -380,7 +380,7 @@ static const Field SEAM_DEF_FIELDS[] = {
     { "break_force", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSeamDef, breakForce), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct SEAM_DEF = { "SeamDef", (int)sizeof(kiriSeamDef), 8, SEAM_DEF_FIELDS, FillSeamDef, NULL };
+static const Struct SEAM_DEF = { "SeamDef", SIZE_OF(kiriSeamDef), 8, SEAM_DEF_FIELDS, FillSeamDef, NULL };
 
 static const Field STITCH_FIELDS[] = {
     { "sheet_a", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriStitch, sheetA), 1, 0, 0, 0, CLASS_SHEET, NULL },
@@ -393,7 +393,7 @@ static const Field STITCH_FIELDS[] = {
     { "angle", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriStitch, angle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct STITCH = { "Stitch", (int)sizeof(kiriStitch), 8, STITCH_FIELDS, NULL, NULL };
+static const Struct STITCH = { "Stitch", SIZE_OF(kiriStitch), 8, STITCH_FIELDS, NULL, NULL };
 
 static const Field CONTACT_FIELDS[] = {
     { "point", TYPE_INT32, KIND_INT, (int)offsetof(kiriContact, point), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -407,7 +407,7 @@ static const Field CONTACT_FIELDS[] = {
     { "obstacle", TYPE_INT32, KIND_INT, (int)offsetof(kiriContact, obstacle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct CONTACT = { "Contact", (int)sizeof(kiriContact), 9, CONTACT_FIELDS, NULL, NULL };
+static const Struct CONTACT = { "Contact", SIZE_OF(kiriContact), 9, CONTACT_FIELDS, NULL, NULL };
 
 static const Field CONTACT_FORCE_FIELDS[] = {
     { "impulse", TYPE_DOUBLE, KIND_VECTOR3, (int)offsetof(kiriContactForce, impulse), 3, 0, 0, 0, CLASS_NONE, NULL },
@@ -417,7 +417,7 @@ static const Field CONTACT_FORCE_FIELDS[] = {
     { "obstacle", TYPE_INT32, KIND_INT, (int)offsetof(kiriContactForce, obstacle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct CONTACT_FORCE = { "ContactForce", (int)sizeof(kiriContactForce), 5, CONTACT_FORCE_FIELDS, NULL, NULL };
+static const Struct CONTACT_FORCE = { "ContactForce", SIZE_OF(kiriContactForce), 5, CONTACT_FORCE_FIELDS, NULL, NULL };
 
 static void FillObstacleDef(void* filled)
 {
@@ -445,7 +445,7 @@ static const Field OBSTACLE_DEF_FIELDS[] = {
     { "groups", TYPE_UINT32, KIND_INT, (int)offsetof(kiriObstacleDef, groups), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct OBSTACLE_DEF = { "ObstacleDef", (int)sizeof(kiriObstacleDef), 18, OBSTACLE_DEF_FIELDS, FillObstacleDef, NULL };
+static const Struct OBSTACLE_DEF = { "ObstacleDef", SIZE_OF(kiriObstacleDef), 18, OBSTACLE_DEF_FIELDS, FillObstacleDef, NULL };
 
 static const Field OBSTACLE_STATE_FIELDS[] = {
     { "position", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriObstacleState, position), 3, 0, 0, 0, CLASS_NONE, NULL },
@@ -457,7 +457,7 @@ static const Field OBSTACLE_STATE_FIELDS[] = {
     { "contacts", TYPE_INT32, KIND_INT, (int)offsetof(kiriObstacleState, contacts), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct OBSTACLE_STATE = { "ObstacleState", (int)sizeof(kiriObstacleState), 7, OBSTACLE_STATE_FIELDS, NULL, NULL };
+static const Struct OBSTACLE_STATE = { "ObstacleState", SIZE_OF(kiriObstacleState), 7, OBSTACLE_STATE_FIELDS, NULL, NULL };
 
 static void FillDebugDraw(void* filled)
 {
@@ -470,7 +470,7 @@ static const Field DEBUG_DRAW_FIELDS[] = {
     { "size", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriDebugDraw, size), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct DEBUG_DRAW = { "DebugDraw", (int)sizeof(kiriDebugDraw), 3, DEBUG_DRAW_FIELDS, FillDebugDraw, NULL };
+const Struct DEBUG_DRAW = { "DebugDraw", SIZE_OF(kiriDebugDraw), 3, DEBUG_DRAW_FIELDS, FillDebugDraw, NULL };
 
 /* ---- Methods ---- */
 

@@ -4,9 +4,7 @@ extends SceneTree
 func _init() -> void:
 	var world := KiriWorld.new()
 	var sheet := world.create_rectangle(1.0, 1.0, 16, 16)
-	var cut := sheet.begin_cut(Vector2(-0.1, 0.4))
-	cut.extend([Vector2(1.1, 0.6)])
-	cut.end()
+	sheet.cut([Vector2(-0.1, 0.4), Vector2(1.1, 0.6)])
 	world.tick(1.0 / 60.0, 1)
 	print(sheet.get_counts().pieces, " pieces")
 	quit()
