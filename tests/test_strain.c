@@ -87,21 +87,6 @@ TEST(StrainDerivatives)
     assert_true(stopped > 20);
 }
 
-/* Turned against each other by up to half a turn: derivatives, and no jump on the way to the other side. */
-TEST(FoldsAreSmooth)
-{
-    uint32_t seed = 17;
-    const double pi = 3.14159265358979;
-    for (int trial = 0; trial < 400; ++trial) {
-        Couple couple = RandomCouple(&seed);
-        double way = RandomBetween(&seed, 0.0, 2.0 * pi), angle = RandomBetween(&seed, 0.7 * pi, 0.97 * pi);
-        kiriVec3 axis = kiriPose_Along(&couple.poses[0], kiriVec2_Make(cos(way), sin(way)));
-        kiriMat3 turn = kiriMat3_Cayley(kiriVec3_Scale(2.0 * tan(0.5 * angle), axis));
-        couple.poses[1].A = kiriMat3_MulMat(turn, couple.poses[0].A);
-        CheckSlopes(&couple, 1e-6, 1e-4, 1e-4, &seed);
-    }
-}
-
 /* Stretch, shear and plane bending cost nothing next to half a turn, for any offset and lean of the frames: no wall stops
    the way round. */
 TEST(HalfTurnHasNoWall)

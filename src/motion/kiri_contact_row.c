@@ -264,6 +264,9 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
     KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_MEMBERS);
+    if (IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0 && step->yield->place == KIRI_NONE) {
+        row->reach = row->mass = 0.0; /* hard */
+    }
     int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, all);
     if (row->other != NULL) {
         KIRI_ASSERT(row->weightCount <= KIRI_CONTACT_SIDE && row->otherCount <= KIRI_CONTACT_SIDE);
@@ -291,10 +294,31 @@ static double MassOf(const kiriSystem* system, int32_t first, int32_t count)
     return mass;
 }
 
+/* Chooses the obstacles that have unknowns. */
+static void ChooseRecoils(const kiriSolver* solver)
+{
+    kiriYieldRow* chosen[KIRI_MOST_RECOILING];
+    int32_t count = 0;
+    KIRI_TIMES(n, solver->islandCount) {
+        const kiriIslandBody* member = &solver->islandBodies[n];
+        KIRI_TIMES(k, member->sheet->yieldCount) {
+            kiriYieldRow* row = &member->sheet->yields[k];
+            row->place = KIRI_NONE;
+            if (row->inverseMass > 0.0) {
+                kiriRecoil_Choose(FindYield(solver, member, k), chosen, &count);
+            }
+        }
+    }
+    KIRI_TIMES(n, count) {
+        chosen[n]->place = 0;
+    }
+}
+
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mass = MassOf(system, 0, system->frameCount);
     solver->contacts.count = solver->recoil.bodies.count = 0;
+    ChooseRecoils(solver);
     KIRI_TIMES(n, solver->islandCount) {
         const kiriIslandBody* member = &solver->islandBodies[n];
         const kiriSolverBody* body = &member->solver->bodies.bodies.data[member->body];

@@ -18,6 +18,24 @@ kiriVec3 kiriRecoil_Move(const kiriContactStep* step)
     return WayBy(step, step->body->move);
 }
 
+/* chosen: the heaviest so far, heaviest first. */
+void kiriRecoil_Choose(kiriYieldRow* row, kiriYieldRow** chosen, int32_t* count)
+{
+    bool isNew = true;
+    KIRI_TIMES_WHILE(isNew, n, *count) {
+        isNew = chosen[n] != row;
+    }
+    int32_t at = *count;
+    while (isNew && at > 0 && chosen[at - 1]->inverseMass > row->inverseMass) {
+        --at;
+    }
+    if (isNew && at < KIRI_MOST_RECOILING) {
+        *count = kiriMin(*count + 1, KIRI_MOST_RECOILING);
+        memmove(&chosen[at + 1], &chosen[at], sizeof(*chosen) * (size_t)(*count - 1 - at));
+        chosen[at] = row;
+    }
+}
+
 /* Lists the obstacle if it is new, with the scales of its unknowns: their inertia is 1/2 |z|^2 / h'^2. */
 void kiriRecoil_Join(kiriSolver* solver, kiriContactStep* step)
 {

@@ -392,6 +392,7 @@ static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64
 bool kiriSolver_ReserveBodies(kiriSolver* solver, int64_t bodies, int64_t frames)
 {
     kiriMemory* memory = solver->memory;
+    bodies = kiriMin(bodies, KIRI_MOST_RECOILING);
     int64_t count = KIRI_RECOILS * bodies, all = frames * solver->size;
     return bodies == 0 || (kiriArray_Reserve(memory, &solver->recoil.bodies, bodies) &&
                            kiriArray_Reserve(memory, &solver->recoil.border, count * all) &&

@@ -13,7 +13,7 @@
 
 KIRI_C_BEGIN
 
-enum { KIRI_RECOILS = 6 };
+enum { KIRI_RECOILS = 6, KIRI_MOST_RECOILING = 8 };
 
 /* The other side of contacts, if it can move: a body of the host, an obstacle, or another piece. */
 typedef struct kiriYieldRow {
@@ -29,7 +29,7 @@ typedef struct kiriYieldRow {
     double before, after, most;
     /* Scratch: unknowns of the obstacle in a step (kiri_recoil.c). It moves by `moving` times the first three, and turns by
        `turning` times the others. from: so far; at: of the poses that are tried; move: by the last system. */
-    int32_t place; /* of the first unknown */
+    int32_t place; /* of the first unknown; KIRI_NONE: it has none */
     double moving;
     kiriMat3 turning;
     double from[KIRI_RECOILS], at[KIRI_RECOILS], move[KIRI_RECOILS];
@@ -768,9 +768,11 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
 /* ---- Obstacles with a mass (kiri_recoil.c) ----
 
    An obstacle that soft contacts touch has six unknowns in the system, and is in the line search. They are solved last: so
-   the pattern of the frames does not change. */
+   the pattern of the frames does not change. The cost grows with the square of their number, so only the heaviest
+   KIRI_MOST_RECOILING of a system have them. Contacts with others are hard. */
 
-/* Lists the obstacle of a contact. */
+/* Choose begins a step: it may give unknowns to the obstacle of this row. Join lists the obstacle of a contact. */
+void kiriRecoil_Choose(kiriYieldRow* row, kiriYieldRow** chosen, int32_t* count);
 void kiriRecoil_Join(kiriSolver* solver, kiriContactStep* step);
 
 /* Return the way of the obstacle at the contact beyond its velocity, m: at the poses that are tried; by the last system. */
