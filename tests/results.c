@@ -43,15 +43,7 @@ static const char* NotMonotone(const Row* row)
 
 Row Row_Make(const char* name, const char* layout, int frames, int grid, double noise, double target)
 {
-    Row row;
-    memset(&row, 0, sizeof row);
-    row.name = name;
-    row.layout = layout;
-    row.frames = frames;
-    row.grid = grid;
-    row.noise = noise;
-    row.target = target;
-    return row;
+    return (Row){ .name = name, .layout = layout, .frames = frames, .grid = grid, .noise = noise, .target = target };
 }
 
 void Results_PrintHead(void)

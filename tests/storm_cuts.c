@@ -12,9 +12,8 @@ void Storm_Cut(Storm* storm)
         Storm_AnyRestPoint(storm, points + 2 * i);
     }
     kiriCut cut = 0;
-    Storm_Note(storm, kiriBeginCut(storm->world, Storm_AnySheet(storm), points, &cut));
-    Storm_Note(storm, kiriCut_Extend(storm->world, cut, points + 2, 1 + (int32_t)Storm_Random(storm, POINTS - 1)));
-    Storm_Note(storm, kiriCut_End(storm->world, cut));
+    int32_t count = 2 + (int32_t)Storm_Random(storm, POINTS - 1);
+    Storm_Note(storm, kiriSheet_Cut(storm->world, Storm_AnySheet(storm), points, count, &cut));
 }
 
 /* An octagon comes off. */

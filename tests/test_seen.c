@@ -318,6 +318,32 @@ TEST(Strained)
     }
 }
 
+/* Clamped at both ends, with frames of 6 cm beside each other along a clamp: the drawn surface stays at the frames. */
+TEST(ClampedClothIsDrawnAtItsFrames)
+{
+    START_HOST(host);
+    kiriSheetDef def = SheetOf(32, 25);
+    float points[50];
+    for (int i = 0; i < 50; ++i) {
+        points[i] = i % 2 == 0 ? 0.1f + 0.2f * (float)(i / 2 % 5) : 0.03f + 0.06f * (float)(i / 10);
+    }
+    OK(kiriGetMaterial(KIRI_MATERIAL_SILK, &def.material));
+    def.framePoints = points;
+    World_StopGravity(host.world);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.3f, 32, 9);
+    World_Clamp(host.world, sheet, (const float[]){ 0.0f, 0.0f }, (const float[]){ 0.0f, 0.3f });
+    World_Clamp(host.world, sheet, (const float[]){ 1.0f, 0.0f }, (const float[]){ 1.0f, 0.3f });
+    for (int tick = 0; tick < 300; ++tick) {
+        const float push[3] = { 0.0f, 0.0f, tick % 2 == 0 ? 1e-3f : -1e-3f };
+        OK(kiriSheet_ApplyForce(host.world, sheet, &points[2 * (tick * 7 % 25)], push, noVector));
+        OK(kiriWorld_Tick(host.world, dt, 2));
+        kiriMesh mesh = World_Mesh(host.world, sheet);
+        for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+            assert_true(fabsf(mesh.positions[3 * v + 2]) < 0.05f);
+        }
+    }
+}
+
 /* A sheet is thrown about its pins at 1 to 3 m/s: each point is drawn at its pin, whether a vertex is there or not;
    corners at soft springs are drawn away from them. */
 TEST(PinnedPointsAreDrawnAtTheirPins)

@@ -66,8 +66,7 @@ TEST(CutWakes)
     kiriPin pins[2];
     kiriSheet sheet = HangAsleep(&host, pins);
     double height = Host_Totals(&host, sheet).center[2];
-    kiriCut cut = 0;
-    OK(kiriBeginCut(host.world, sheet, across, &cut));
+    kiriCut cut = World_BeginCut(host.world, sheet, across);
     assert_false(IsAwake(&host, sheet));
     OK(kiriCut_Extend(host.world, cut, across + 2, 1));
     Tick(&host);

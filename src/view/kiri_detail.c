@@ -134,6 +134,7 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------------ */
 
+/* What holds a vertex completes its offset each tick, so a part of the old one goes: else errors would add up. */
 void kiriDetail_Begin(int32_t begin, int32_t end, void* context)
 {
     const kiriDetailTask* task = context;
@@ -142,7 +143,7 @@ void kiriDetail_Begin(int32_t begin, int32_t end, void* context)
     KIRI_FROM_TO(k, begin, end) {
         kiriDetailVertex item = detail->vertices.data[k];
         const float *from = task->skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
-        float *to = detail->moving.data + 4 * item.vertex, keep = item.leash != 0.0f ? 1.0f - PULL : 0.8f;
+        float *to = detail->moving.data + 4 * item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
         KIRI_TIMES(i, 3) {
             to[i] = from[i] + keep * by[i];
         }
