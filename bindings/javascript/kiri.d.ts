@@ -424,7 +424,7 @@ export class Material {
     slack: number;
     /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail: number;
-    /** 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0 */
+    /** 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
     restCurvature: number[];
 }
 /** What a host gives as Material: what is left out is 0. */
@@ -449,7 +449,7 @@ export interface MaterialGiven {
     slack?: number;
     /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
     detail?: number;
-    /** 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0 */
+    /** 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
     restCurvature?: ArrayLike<number>;
 }
 

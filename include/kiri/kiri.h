@@ -277,7 +277,7 @@ typedef struct kiriMaterial {
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     float slack;    /* 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
     int32_t detail; /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
-    float restCurvature[3]; /* 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0 */
+    float restCurvature[3]; /* 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
 } kiriMaterial;
 
 /* Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual, sheets) */

@@ -264,7 +264,8 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
     KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_MEMBERS);
-    if (IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0 && step->yield->place == KIRI_NONE) {
+    bool recoils = IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0;
+    if (recoils && step->yield->place == KIRI_NONE) {
         row->reach = row->mass = 0.0; /* hard */
     }
     int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, all);
@@ -279,7 +280,7 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     }
     WeighMembers(system, step);
     PlacePlane(solver, system, all, count, share, step);
-    if (IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0) {
+    if (recoils && IsSoft(row)) {
         kiriRecoil_Join(solver, step);
     }
 }

@@ -394,15 +394,12 @@ static void KeepStrains(kiriSheetData* sheet, const kiriPinShares* old, const ki
     kiriStrainOffset_Keep(strain, turned, was, older != NULL ? older->offset : none, pinned->offset);
     KIRI_CLEAR(&pinned->plastic);
     if (sheet->plastics.isKept) {
-        kiriClampRow row = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0);
-        pinned->plastic = kiriPlastic_AtRest(&sheet->settings.material, &row.link);
-    }
-    older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
-    if (older != NULL && sheet->plastics.isKept) {
-        double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
-        const kiriFrameData* bent = &sheet->frames.data[older->share.frame];
-        double before = ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length;
-        pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
+        const kiriLink link = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link;
+        older = older != NULL ? older : FindPinnedBeside(sheet, old, pinned);
+        const kiriFrameData* bent = older != NULL ? &sheet->frames.data[older->share.frame] : NULL;
+        pinned->plastic =
+            older == NULL ? kiriPlastic_AtRest(&sheet->settings.material, &link) :
+            kiriPlastic_Scaled(&older->plastic, link.length / ClampRowOf(sheet, older, bent, 0.0, 1.0).link.length);
     }
 }
 

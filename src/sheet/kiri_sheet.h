@@ -632,9 +632,8 @@ static inline bool kiriSettings_Yield(const kiriSettings* settings)
 static inline bool kiriSettings_Bend(const kiriSettings* settings)
 {
     const float* rest = settings->material.restCurvature;
-    bool isBent = rest[0] != 0.0f || rest[1] != 0.0f || rest[2] != 0.0f;
-    return kiriSettings_Yield(settings) ||
-           (isBent && settings->mechanics.model == KIRI_MODEL_LINKS && !settings->mechanics.planar);
+    return settings->mechanics.model == KIRI_MODEL_LINKS && !settings->mechanics.planar &&
+           (settings->material.yieldStress > 0.0f || rest[0] != 0.0f || rest[1] != 0.0f || rest[2] != 0.0f);
 }
 
 /* Return true if springs of pins and hinges keep their pull, and links their strains, when a cut changes them. */

@@ -714,7 +714,7 @@ namespace Kiri
         public float Slack;
         /// <summary>sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0</summary>
         public int Detail;
-        /// <summary>1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0</summary>
+        /// <summary>1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0</summary>
         public Float3 RestCurvature;
     }
 

@@ -172,7 +172,7 @@ kiri.DRAW_ALL = 2047
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 ---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
 ---@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
----@field restCurvature? number[]|ffi.cdata* # 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0
+---@field restCurvature? number[]|ffi.cdata* # 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
 
 --- Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 ---@class kiri.Quality

@@ -387,7 +387,7 @@ pub struct kiriMaterial {
     pub slack: f32,
     /// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
     pub detail: i32,
-    /// 1/m, without forces: along x, along y, twist; above 0: rises to the front. Presets: 0
+    /// 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
     pub restCurvature: [f32; 3],
 }
 
