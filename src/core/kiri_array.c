@@ -20,8 +20,8 @@ void kiriArray_Swap(void* a, void* b)
     kiriArray_SetHeader(b, header);
 }
 
-/* Moves the items to a new block of `capacity` items. */
-static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes)
+/* Moves the items to a new block of `capacity` items. The old one gets the owner `retired`; null: it is freed. */
+static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes, kiriMemory* retired)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
     void* data = capacity > INT32_MAX ? NULL : kiriMemory_Alloc(memory, capacity * (int64_t)itemBytes);
@@ -31,7 +31,11 @@ static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t 
     if (header.count > 0) {
         memcpy(data, header.data, (size_t)header.count * itemBytes);
     }
-    kiriMemory_Free(memory, header.data);
+    if (retired != NULL) {
+        kiriMemory_Adopt(retired, header.data);
+    } else {
+        kiriMemory_Free(memory, header.data);
+    }
     header.data = data;
     header.capacity = (int32_t)capacity;
     kiriArray_SetHeader(array, header);
@@ -44,7 +48,7 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
     /* An eighth more even at first, so that the first cut does not copy the whole sheet. */
     int64_t capacity = kiriMax(need + need / 8, 2 * has);
     capacity = kiriMin(INT32_MAX, kiriMax(8, capacity));
-    return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes));
+    return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes, NULL));
 }
 
 bool kiriArrays_Grow(kiriMemory* memory, int64_t need, const kiriAnyArray* arrays)
@@ -69,7 +73,7 @@ bool kiriArrays_SetCount(kiriMemory* memory, int64_t size, const kiriAnyArray* a
 
 bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
-    return need <= kiriArray_GetHeader(array).capacity || MoveArray(memory, array, need, itemBytes);
+    return need <= kiriArray_GetHeader(array).capacity || MoveArray(memory, array, need, itemBytes, NULL);
 }
 
 void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes)
@@ -77,8 +81,13 @@ void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes)
     kiriArrayHeader header = kiriArray_GetHeader(array);
     int64_t enough = header.count + (int64_t)header.count / 8;
     if (header.count > 0 && enough < header.capacity) {
-        MoveArray(memory, array, enough, itemBytes);
+        MoveArray(memory, array, enough, itemBytes, NULL);
     }
+}
+
+bool kiriArray_Renew(kiriMemory* memory, void* array, size_t itemBytes, kiriMemory* retired)
+{
+    return MoveArray(memory, array, kiriArray_GetHeader(array).capacity, itemBytes, retired);
 }
 
 void kiriArray_SetFrom(void* array, int32_t from, int byte, size_t itemBytes)

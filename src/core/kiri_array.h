@@ -76,6 +76,9 @@ bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t item
 /* Reduces the capacity to 9/8 of the count. Keeps the capacity on out of memory. */
 void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes);
 
+/* Moves the items to a new block. The old one gets the owner `retired`. Fails on out of memory, and changes nothing. */
+bool kiriArray_Renew(kiriMemory* memory, void* array, size_t itemBytes, kiriMemory* retired);
+
 /* Frees the items and leaves the array empty. */
 void kiriArray_Release(kiriMemory* memory, void* array);
 

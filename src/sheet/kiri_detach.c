@@ -506,21 +506,6 @@ static bool StagePins(kiriDetach* detach)
     return ok;
 }
 
-/* Contact keys contain indices, so forces are looked up before these change. */
-static bool ListForces(kiriDetach* detach)
-{
-    const kiriTouches* touches = &detach->sheet->touches;
-    int32_t last = touches->last.touches.count, slept = touches->slept.touches.count;
-    if (!kiriArray_Resize(&detach->memory, &detach->forces, (int64_t)last + slept)) {
-        return false;
-    }
-    KIRI_TIMES(i, last + slept) {
-        const kiriTouch* touch = i < last ? &touches->last.touches.data[i] : &touches->slept.touches.data[i - last];
-        detach->forces.data[i] = kiriTouches_ForceOf(detach->sheet, touch->key);
-    }
-    return true;
-}
-
 bool kiriDetach_Stage(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
@@ -529,8 +514,7 @@ bool kiriDetach_Stage(kiriDetach* detach)
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     KIRI_ASSERT(rest->frames.to.count == sheet->frames.count && rest->frames.count > 0);
     elements->elements.count = elements->shares.count = 0;
-    return ListCells(detach) && ListForces(detach) && StagePieces(detach) &&
-           StagePins(detach) &&
+    return ListCells(detach) && StagePieces(detach) && StagePins(detach) &&
            kiriAreaElements_Keep(elements, sheet->memory, &sheet->layout.areaElements, &rest->frames) &&
            kiriLinks_Keep(&sheet->links, sheet->memory, &rest->links, &rest->frames) &&
            kiriShown_Reserve(&detach->shown, &sheet->shown, &rest->triangles, &rest->vertices) &&
@@ -569,15 +553,22 @@ static void KeepSamples(kiriDetach* detach)
     sheet->update->samples.oldVertices = sheet->mesh.vertices.count;
 }
 
-static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriVec3* forces)
+/* Keys contain indices, so forces are looked up before any of these change. */
+static void RecallForces(const kiriSheetData* sheet, kiriTouchMemory* memory)
+{
+    KIRI_EACH(kiriTouch, touch, memory->touches) {
+        touch->force = kiriTouches_ForceOf(sheet, touch->key);
+    }
+}
+
+static void KeepTouches(const kiriDetach* detach, kiriTouchMemory* memory)
 {
     int32_t count = memory->touches.count;
-    KIRI_ASSERT(forces + count <= detach->forces.data + detach->forces.count);
     memory->touches.count = memory->forces.count = memory->given = 0;
     KIRI_TIMES(i, count) {
         kiriTouch touch = memory->touches.data[i];
         if (FollowTouch(&detach->rest, &touch)) {
-            kiriTouchMemory_Add(memory, &touch, forces[i]);
+            kiriTouchMemory_Add(memory, &touch, touch.force);
         }
     }
     kiriTouchMemory_SortForces(memory, 0, &detach->sheet->touches.order);
@@ -634,10 +625,11 @@ void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
     settings->integrationPoints *= share;
     KeepFields(detach);
     KeepSamples(detach);
-    int32_t last = touches->last.touches.count;
     KIRI_KEEP_IF(kiriGivenContact, given, detach->sheet->contacts, FollowContact(&detach->rest, given));
-    KeepTouches(detach, &touches->last, detach->forces.data);
-    KeepTouches(detach, &touches->slept, detach->forces.data + last);
+    RecallForces(detach->sheet, &touches->last);
+    RecallForces(detach->sheet, &touches->slept);
+    KeepTouches(detach, &touches->last);
+    KeepTouches(detach, &touches->slept);
     touches->rests.areSummed = false;
     CommitLayout(detach);
     KIRI_EACH_OF(kiriCutData, cut, detach->sheet->cuts) {

@@ -38,7 +38,6 @@ typedef struct kiriDetach {
     kiriPieceItems of[KIRI_LISTED_COUNT]; /* items of the pieces that leave */
     double area;                          /* m^2 of all pieces */
     kiriIndices cells, squares;           /* cells that leave, and their squares, each once */
-    KIRI_ARRAY(kiriVec3) forces;          /* N, of each contact of the last tick, then of pieces that sleep */
     kiriShown shown;
     kiriFloats points; /* positions of the collision points that stay */
 } kiriDetach;

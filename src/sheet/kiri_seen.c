@@ -749,6 +749,7 @@ void kiriView_KeepBounds(kiriSheetData* sheet)
 void kiriView_WritePositions(kiriSheetData* sheet)
 {
     int32_t count = sheet->seen.surface.vertexCount;
+    sheet->seen.surface.isWritten = sheet->seen.surface.isSteady = false;
     kiriView_TakeFrames(sheet);
     kiriView_BlendRange(sheet, 0, count);
     kiriView_AddFades(sheet);

@@ -83,7 +83,7 @@ void kiriView_Trim(kiriSheetData* sheet);
 /* Updates the bounds after positions were written, if they are in use. */
 void kiriView_KeepBounds(kiriSheetData* sheet);
 
-/* Writes positions and normals from the frames (section 4.1 of the paper). */
+/* Writes all positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
 /* Measures the drawn surface in rounds of a second, each triangle once. Returns the strained area, m^2, if a second round

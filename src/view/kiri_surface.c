@@ -367,20 +367,6 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
 
 /* ---- Hidden triangles -------------------------------------------------------------------------------------------- */
 
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired)
-{
-    kiriIndices fresh = { 0 };
-    kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
-    KIRI_ASSERT(was.count > 0);
-    if (!kiriArray_Resize(memory, &fresh, was.count)) {
-        return false;
-    }
-    memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
-    kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
-    kiriMemory_Adopt(retired, was.data);
-    return true;
-}
-
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 {
     int32_t* corners = kiriSurface_Triangle(surface, triangle);

@@ -199,10 +199,6 @@ static inline int32_t* kiriSurface_Triangle(const kiriSurface* surface, int32_t 
     return &surface->indices.data[3 * (int64_t)triangle];
 }
 
-/* Copies the indices to a new array; the old one, which the host may hold, gets the owner `retired`. Returns false on out
-   of memory. */
-bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired);
-
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 

@@ -472,34 +472,13 @@ static void TurnFades(kiriFades* fades, const kiriMat3* R)
     }
 }
 
-/* Replaces the arrays of sheets that the host may hold: the old ones get the owner `retired`, and the new ones are
-   unset until positions are written. Changes nothing on out of memory: false. */
-static bool RenewArrays(kiriSheetData* const* sheets, int32_t count, kiriMemory* retired)
+/* Moves the arrays that the host may hold, so that positions can be written again. Fails on out of memory. */
+static bool RenewArrays(kiriSheetData* sheet, kiriMemory* retired)
 {
-    enum { EACH = 3 };
-    kiriMemory made = kiriMemory_Like(retired);
-    float** blocks = kiriMemory_Alloc(&made, (int64_t)sizeof(float*) * (EACH * count + 1));
-    bool areAll = blocks != NULL;
-    for (int pass = 0; pass < 2; ++pass) { /* allocates, then replaces */
-        KIRI_TIMES_WHILE(areAll, i, EACH * count) {
-            kiriSeen* seen = &sheets[i / EACH]->seen;
-            kiriSurface* surface = &seen->surface;
-            kiriFloats* array = i % EACH == 0   ? &surface->positions
-                                : i % EACH == 1 ? &surface->normals
-                                                : &seen->pointPositions;
-            if (pass == 0) {
-                blocks[i] = kiriMemory_Alloc(&made, (int64_t)sizeof(float) * (array->capacity + 1));
-                areAll = blocks[i] != NULL;
-            } else {
-                kiriMemory_Adopt(retired, array->data);
-                kiriMemory_Adopt(&sheets[i / EACH]->shown, blocks[i]);
-                array->data = blocks[i];
-                surface->isWritten = surface->isSteady = false;
-            }
-        }
-    }
-    kiriMemory_FreeAll(&made);
-    return areAll;
+    kiriSeen* seen = &sheet->seen;
+    return kiriArray_Renew(&sheet->shown, &seen->surface.positions, sizeof(float), retired) &&
+           kiriArray_Renew(&sheet->shown, &seen->surface.normals, sizeof(float), retired) &&
+           kiriArray_Renew(&sheet->shown, &seen->pointPositions, sizeof(float), retired);
 }
 
 kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3])
@@ -511,7 +490,7 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     KIRI_CHECK(kiriCall_KeepsPlane(data, kiriMat3_Mul(R, data->settings.mechanics.axes.d)),
                "rotation turns a planar sheet out of its plane");
     KIRI_CHECK(FitsCarried(data, &R, t), "floats cannot hold what comes of it");
-    KIRI_REQUIRE(RenewArrays(&data, 1, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    KIRI_REQUIRE(RenewArrays(data, &world->retired), KIRI_ERROR_MEMORY, NULL);
     KIRI_EACH(kiriFrameData, frame, data->frames) {
         CarryFrame(frame, &R, t, data->settings.mechanics.model == KIRI_MODEL_LINKS);
         if (frame->held) {
@@ -691,7 +670,9 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
         KIRI_RETURN(KIRI_OK);
     }
     KIRI_CHECK(FitsShift(world, to), "floats cannot hold what comes of it");
-    KIRI_REQUIRE(RenewArrays(world->sheets.data, world->sheets.count, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        KIRI_REQUIRE(RenewArrays(sheet, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    }
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         ShiftSheet(sheet, to);
     }

@@ -526,60 +526,62 @@ static void TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt
 
 /* ---- Groups ---- */
 
-/* Adds a meeting of a sheet and an obstacle. Skips consecutive touches of the same obstacle. Fails on out of memory. */
-static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle, const kiriObstacleData** last)
+/* Returns the item of an obstacle in the forest of groups: these follow the sheets. */
+static int32_t ItemOf(const kiriWorld* world, const kiriObstacleData* obstacle)
 {
-    bool isNew = obstacle != NULL && obstacle != *last && kiriObstacle_IsMovable(obstacle);
-    kiriMeet meet = { isNew ? NumberOf(obstacle) : 0, sheet };
-    *last = obstacle != NULL ? obstacle : *last;
-    return !isNew || kiriArray_Push(&world->memory, &world->moves.meets, meet);
+    const kiriSlot* slot = kiriPool_Find(&world->obstacleIds, obstacle->id);
+    return world->sheets.count + (int32_t)(slot - world->obstacleIds.slots.data);
 }
 
-/* Lists the movable obstacles to which the sheet may give an impulse, including its last touches, in case it sleeps. */
-static bool ListMeets(kiriWorld* world, int32_t sheet)
+/* Joins a sheet with an obstacle to which it may give an impulse, or null. */
+static void JoinObstacle(const kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle)
+{
+    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle)) {
+        kiriUnion_Join(world->moves.parent.data, sheet, ItemOf(world, obstacle));
+    }
+}
+
+/* Joins a sheet with the obstacles that it touches, including those of its last touches, in case it sleeps. */
+static void JoinTouched(const kiriWorld* world, int32_t sheet)
 {
     const kiriSheetData* data = world->sheets.data[sheet];
-    const kiriObstacleData* last = NULL;
-    bool ok = true;
     const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
-    KIRI_EACH_WHILE(ok, const kiriTouch, touch, data->touches.found) {
-        ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
+    KIRI_EACH(const kiriTouch, touch, data->touches.found) {
+        JoinObstacle(world, sheet, OwnerOfKey(world, touch->key));
     }
     KIRI_TIMES(n, 2) {
-        KIRI_EACH_WHILE(ok, const kiriTouch, touch, memories[n]->touches) {
-            ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
+        KIRI_EACH(const kiriTouch, touch, memories[n]->touches) {
+            JoinObstacle(world, sheet, OwnerOfKey(world, touch->key));
         }
     }
-    KIRI_EACH_WHILE(ok, const kiriPinData, pin, data->pins) {
-        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, pin), &last);
+    KIRI_EACH(const kiriPinData, pin, data->pins) {
+        JoinObstacle(world, sheet, kiriPinStep_Obstacle(world, pin));
     }
-    return ok;
 }
 
 static bool HasLowerNumber(const void* context, int32_t a, int32_t b)
 {
-    const kiriMeet* meets = context;
-    return meets[a].number < meets[b].number || (meets[a].number == meets[b].number && a < b);
+    kiriObstacleData* const* obstacles = context;
+    int64_t x = NumberOf(obstacles[a]), y = NumberOf(obstacles[b]);
+    return x < y || (x == y && a < b);
 }
 
 /* Joins sheets that move the same body into groups. A sheet's yield rows include the impulses of earlier sheets. */
 static bool JoinByBodies(kiriWorld* world)
 {
     kiriMoves* moves = &world->moves;
-    bool ok = true;
-    moves->meets.count = 0;
-    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
-        ok = ListMeets(world, i);
-    }
-    if (!ok ||
-        !kiriSort_Order(&world->memory, &moves->order, moves->meets.count, HasLowerNumber, moves->meets.data)) {
+    if (!kiriSort_Order(&world->memory, &moves->order, world->obstacles.count, HasLowerNumber, world->obstacles.data)) {
         return false;
     }
     KIRI_FROM_TO(k, 1, moves->order.count) {
-        const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
-        if (a->number == b->number) {
-            kiriUnion_Join(moves->parent.data, a->sheet, b->sheet);
+        const kiriObstacleData* a = world->obstacles.data[moves->order.data[k - 1]];
+        const kiriObstacleData* b = world->obstacles.data[moves->order.data[k]];
+        if (NumberOf(a) == NumberOf(b)) {
+            kiriUnion_Join(moves->parent.data, ItemOf(world, a), ItemOf(world, b));
         }
+    }
+    KIRI_EACH_INDEX(i, world->sheets) {
+        JoinTouched(world, i);
     }
     return true;
 }
@@ -588,11 +590,12 @@ bool kiriMoves_Prepare(kiriWorld* world)
 {
     kiriMoves* moves = &world->moves;
     int32_t count = world->sheets.count;
-    if (!kiriArrays_Resize(&world->memory, count, &moves->of, &moves->parent) ||
+    if (!kiriArray_Resize(&world->memory, &moves->of, count) ||
+        !kiriArray_Resize(&world->memory, &moves->parent, (int64_t)count + world->obstacleIds.slots.count) ||
         !kiriArray_Reserve(&world->memory, &moves->heads, count)) {
         return false;
     }
-    kiriUnion_Init(moves->parent.data, count);
+    kiriUnion_Init(moves->parent.data, moves->parent.count);
     if (!kiriIslands_FindClusters(world)) {
         return false;
     }
@@ -873,35 +876,23 @@ static void RunRanges(int32_t start, int32_t end, void* context)
     }
 }
 
-/* Returns true if seams may move the drawn lips of the sheet. The last seam may have broken in this tick. */
-static bool IsSewn(const kiriWorld* world, const kiriSheetData* sheet)
-{
-    return sheet->sewn.count > 0 && world->seams.count > 0;
-}
-
-/* Relaxes and sums; sheets with seams are summed later. */
 static void RelaxSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     const kiriTasks none = { NULL, NULL, NULL, 0 };
     KIRI_FROM_TO(k, start, end) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
-        if (IsInRanges(task->world, k)) {
-            if (!IsLarge(sheet)) {
-                Relax(task, sheet, &none);
-            }
-            if (!IsSewn(task->world, sheet)) {
-                kiriView_Sum(sheet);
-            }
+        if (IsInRanges(task->world, k) && !IsLarge(sheet)) {
+            Relax(task, sheet, &none);
         }
     }
 }
 
-static void SumSewn(int32_t start, int32_t end, void* context)
+static void SumSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     KIRI_FROM_TO(k, start, end) {
-        if (IsInRanges(task->world, k) && IsSewn(task->world, kiriWorld_Active(task->world, k))) {
+        if (IsInRanges(task->world, k)) {
             kiriView_Sum(kiriWorld_Active(task->world, k));
         }
     }
@@ -937,10 +928,8 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
             }
         }
         kiriTasks_Run(&world->tasks, RelaxSheets, world->active.count, 1, &task);
-        if (world->seams.count > 0) {
-            kiriWelds_Close(world);
-            kiriTasks_Run(&world->tasks, SumSewn, world->active.count, 1, &task);
-        }
+        kiriWelds_Close(world); /* the last seam may have broken in this tick */
+        kiriTasks_Run(&world->tasks, SumSheets, world->active.count, 1, &task);
         task.run = kiriView_WriteRange;
         kiriTasks_Run(&world->tasks, RunRanges, world->skinRanges.count, 1, &task);
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);

@@ -429,8 +429,8 @@ static kiriResult Destroy(Parting* parting)
     bool ok = MapSources(parting, false) && StageSources(parting);
     KIRI_EACH_WHILE(ok, const PartSource, source, parting->sources) { /* triangles will be hidden in the indices */
         kiriSheetData* sheet = source->detach.sheet;
-        ok = !source->waits ||
-             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired);
+        ok = !source->waits || kiriArray_Renew(&sheet->shown, &sheet->seen.surface.indices, sizeof(int32_t),
+                                               &parting->world->retired);
     }
     if (!ok) {
         return KIRI_ERROR_MEMORY;

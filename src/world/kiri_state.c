@@ -88,7 +88,7 @@ KIRI_TABLE(PoolTable, kiriPool, {
 })
 
 KIRI_TABLE(MovesTable, kiriMoves, {
-    KIRI_ROOMS(of, meets, order, parent, heads),
+    KIRI_ROOMS(of, order, parent, heads),
 })
 
 /* Times are of this machine. */

@@ -179,12 +179,6 @@ typedef struct kiriRecorder {
     bool isOpen; /* a call has begun and not ended */
 } kiriRecorder;
 
-/* A sheet that may move a body. */
-typedef struct kiriMeet {
-    int64_t number; /* of the body, see kiri_move.c */
-    int32_t sheet;
-} kiriMeet;
-
 /* Motion of a sheet in a tick. */
 typedef struct kiriMove {
     int32_t next, tail; /* next sheet of its group; in a root: last sheet of the group */
@@ -196,8 +190,7 @@ typedef struct kiriMove {
 /* See kiri_move.h. */
 typedef struct kiriMoves {
     KIRI_ARRAY(kiriMove) of; /* one a sheet */
-    KIRI_ARRAY(kiriMeet) meets;
-    kiriIndices order, parent, heads; /* of meets; union-find forest of sheets; first sheet of each group */
+    kiriIndices order, parent, heads; /* of obstacles; union-find forest of sheets and obstacles; first sheet of each group */
 } kiriMoves;
 
 /* Vertices of a sheet that one task skins. */
