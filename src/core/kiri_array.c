@@ -196,7 +196,7 @@ void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
         to = from == items ? room : items;
     }
     if (from != items) {
-        memcpy(items, from, sizeof(*items) * (size_t)count);
+        memcpy(items, from, sizeof(*items) * count);
     }
 }
 

@@ -31,18 +31,24 @@ typedef KIRI_ARRAY(uint8_t) kiriFlags;
 typedef KIRI_ARRAY(double) kiriReals;
 typedef KIRI_ARRAY(float) kiriFloats;
 
-/* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers: `item` is each of
-   them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false.
-   KIRI_EACH_INDEX is for what needs the index; _BACK goes from the last item to the first, which may be removed. */
+/* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers, and KIRI_EACH_LISTED
+   for a list of indices: `item` is each of them. The array may lose items meanwhile, but not grow. It must exist even where
+   the condition is false. KIRI_EACH_INDEX is for what needs the index; _BACK goes from the last item to the first, which may
+   be removed. */
 #define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
+#define KIRI_EACH_OF(Type, item, array) KIRI_EACH_OF_WHILE(true, Type, item, array)
+#define KIRI_EACH_OF_WHILE(condition, Type, item, array)                                                               \
+    for (Type** item##At = (array).data, *item;                                                                        \
+         (condition) && item##At < (array).data + (array).count && (item = *item##At, true); ++item##At)
+#define KIRI_EACH_LISTED(item, list) KIRI_EACH_LISTED_WHILE(true, item, list)
+#define KIRI_EACH_LISTED_WHILE(condition, item, list)                                                                  \
+    for (int32_t item##At = 0, item;                                                                                   \
+         (condition) && item##At < (list).count && (item = (list).data[item##At], true); ++item##At)
 #define KIRI_EACH_INDEX(i, array) KIRI_TIMES(i, (array).count)
 #define KIRI_EACH_INDEX_WHILE(condition, i, array) KIRI_TIMES_WHILE(condition, i, (array).count)
 #define KIRI_EACH_INDEX_BACK(i, array) for (int32_t i = (array).count - 1; i >= 0; --i)
-#define KIRI_EACH_OF(Type, item, array)                                                                                \
-    for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
-         ++item##At)
 
 #define KIRI_ASSERT_HAS(array, index) KIRI_ASSERT((index) >= 0 && (index) < (array).count)
 

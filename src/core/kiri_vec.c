@@ -3,12 +3,16 @@
 
 #include <float.h>
 
+double kiriVec2_PartOnWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
+{
+    kiriVec2 way = kiriVec2_Sub(b, a);
+    double square = kiriVec2_Dot(way, way), part = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
+    return kiriClamp(part, 0.0, 1.0);
+}
+
 double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
 {
-    kiriVec2 way = kiriVec2_Sub(b, a), to = kiriVec2_Sub(p, a);
-    double square = kiriVec2_Dot(way, way), t = square > 0.0 ? kiriVec2_Dot(to, way) / square : 0.0;
-    t = kiriClamp(t, 0.0, 1.0);
-    return kiriVec2_Distance(to, kiriVec2_Scale(t, way));
+    return kiriVec2_Distance(kiriVec2_Sub(p, a), kiriVec2_Scale(kiriVec2_PartOnWay(p, a, b), kiriVec2_Sub(b, a)));
 }
 
 double kiriAngle(double sine, double cosine)

@@ -124,7 +124,8 @@ static inline kiriVec2 kiriVec2_Left(kiriVec2 a)
     return kiriVec2_Make(-a.y, a.x);
 }
 
-/* Returns the distance of p from the segment between a and b. */
+/* Return the place on the segment between a and b that is nearest to p, 0 at a and 1 at b; and its distance from p. */
+double kiriVec2_PartOnWay(kiriVec2 p, kiriVec2 a, kiriVec2 b);
 double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b);
 
 static inline kiriVec3 kiriVec3_Make(double x, double y, double z)

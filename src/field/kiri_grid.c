@@ -906,7 +906,7 @@ static void SetSteps(kiriGrid* grid, int32_t c, int32_t straight, int32_t near)
     }
     kiriStepRun* run = &grid->runs.data[c];
     if (count > 0) {
-        memcpy(&grid->steps.data[run->first], is.data, sizeof(kiriStep) * (size_t)count);
+        memcpy(&grid->steps.data[run->first], is.data, sizeof(kiriStep) * count);
     }
     run->end[0] = run->first + straight;
     run->end[1] = run->first + near;
@@ -1100,9 +1100,9 @@ static void ForgetRemoved(kiriGrid* grid, int32_t item)
     }
     grid->work->debt += COST_OF_NODE * (int64_t)changes->material.count;
     changes->material.count = count;
-    KIRI_EACH(const int32_t, cell, changes->made) {
-        if (!kiriGrid_IsCell(grid, *cell)) {
-            FreeCell(grid, *cell);
+    KIRI_EACH_LISTED(cell, changes->made) {
+        if (!kiriGrid_IsCell(grid, cell)) {
+            FreeCell(grid, cell);
         }
     }
     KeepCellsInUse(grid, &changes->made);
@@ -1195,8 +1195,8 @@ static bool StartGridUpdate(kiriGrid* grid)
 static void EndGridUpdate(kiriGridWork* work)
 {
     KIRI_ASSERT(work->flagged.count <= work->squareFlags.count);
-    KIRI_EACH(const int32_t, square, work->flagged) {
-        work->squareFlags.data[*square] = 0;
+    KIRI_EACH_LISTED(square, work->flagged) {
+        work->squareFlags.data[square] = 0;
     }
     work->flagged.count = work->facesDirty.count = work->linksDirty.count = work->stepsDirty.count = 0;
     work->knightsDirty.count = work->entries.count = 0;
@@ -1250,17 +1250,17 @@ void kiriGrid_ClearChanges(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
     KIRI_ASSERT(grid->work == NULL || !grid->work->running);
-    KIRI_EACH(const int32_t, cell, changes->gone) {
-        FreeCell(grid, *cell);
+    KIRI_EACH_LISTED(cell, changes->gone) {
+        FreeCell(grid, cell);
     }
-    KIRI_EACH(const int32_t, cell, changes->steps) {
-        grid->work->cellFlags.data[*cell] = 0;
+    KIRI_EACH_LISTED(cell, changes->steps) {
+        grid->work->cellFlags.data[cell] = 0;
     }
     KIRI_EACH(const kiriMaterialChange, change, changes->material) {
         grid->work->cellFlags.data[change->cell] = 0;
     }
-    KIRI_EACH(const int32_t, cell, changes->edges) {
-        grid->work->cellFlags.data[*cell] = 0;
+    KIRI_EACH_LISTED(cell, changes->edges) {
+        grid->work->cellFlags.data[cell] = 0;
     }
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;

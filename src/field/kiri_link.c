@@ -181,7 +181,7 @@ static void AddEndRegion(kiriLinkEnd* end, int32_t region)
     KIRI_ASSERT(at < KIRI_CORNER_REGIONS);
     if (end->region[at] != region) {
         KIRI_ASSERT(end->region[KIRI_CORNER_REGIONS - 1] == KIRI_NONE);
-        memmove(&end->region[at + 1], &end->region[at], sizeof(region) * (size_t)(KIRI_CORNER_REGIONS - 1 - at));
+        memmove(&end->region[at + 1], &end->region[at], sizeof(region) * (KIRI_CORNER_REGIONS - 1 - at));
         end->region[at] = region;
     }
 }
@@ -1711,8 +1711,8 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
 
 static void EndLinks(kiriLinkWork* work)
 {
-    KIRI_EACH_WHILE(work->running, const int32_t, listed, work->faces) {
-        work->marks.data[*listed] = FACE_PASSED;
+    KIRI_EACH_LISTED_WHILE(work->running, listed, work->faces) {
+        work->marks.data[listed] = FACE_PASSED;
     }
     work->running = false;
     work->made.count = 0;

@@ -176,8 +176,7 @@ static void FollowGrid(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
-    KIRI_EACH(const int32_t, gone, changes->gone) {
-        int32_t cell = *gone;
+    KIRI_EACH_LISTED(cell, changes->gone) {
         AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
@@ -188,13 +187,13 @@ static void FollowGrid(const RegionUpdate* u)
         AddToRegion(u, owner, change->was, -1);
         AddToRegion(u, owner, kiriGrid_Material(u->grid, change->cell), 1);
     }
-    KIRI_EACH(const int32_t, cell, changes->steps) {
-        KIRI_ASSERT(kiriGrid_IsCell(u->grid, *cell));
-        MarkRegionDirty(r, r->field.owner.data[*cell]);
-        kiriField_MarkStepsDirty(&r->field, *cell);
+    KIRI_EACH_LISTED(cell, changes->steps) {
+        KIRI_ASSERT(kiriGrid_IsCell(u->grid, cell));
+        MarkRegionDirty(r, r->field.owner.data[cell]);
+        kiriField_MarkStepsDirty(&r->field, cell);
     }
-    KIRI_EACH(const int32_t, cell, changes->edges) {
-        MarkRegionDirty(r, r->field.owner.data[*cell]);
+    KIRI_EACH_LISTED(cell, changes->edges) {
+        MarkRegionDirty(r, r->field.owner.data[cell]);
     }
 }
 
@@ -262,17 +261,16 @@ static bool FinishRepair(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     int32_t orphans = 0, kept = 0;
-    KIRI_EACH_WHILE(!r->hasSeenGrid, const int32_t, cell, changes->steps) {
-        FindBorder(u, *cell);
+    KIRI_EACH_LISTED_WHILE(!r->hasSeenGrid, cell, changes->steps) {
+        FindBorder(u, cell);
     }
-    KIRI_EACH(const int32_t, orphan, r->orphans) {
-        int32_t cell = *orphan;
+    KIRI_EACH_LISTED(cell, r->orphans) {
         r->orphans.data[orphans] = cell;
         orphans += kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE;
     }
     r->orphans.count = orphans;
-    KIRI_EACH_WHILE(!r->hasSeenGrid, const int32_t, cell, changes->made) {
-        if (r->field.owner.data[*cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, *cell)) {
+    KIRI_EACH_LISTED_WHILE(!r->hasSeenGrid, cell, changes->made) {
+        if (r->field.owner.data[cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, cell)) {
             return false;
         }
     }

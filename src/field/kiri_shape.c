@@ -496,8 +496,8 @@ static bool StartFromBorder(ShapeJob* job)
     }
     work->seeds.count = 0;
     work->debt += work->fromSite.settled.count / SEEDED_AN_ITEM;
-    KIRI_EACH(const int32_t, cell, work->fromSite.settled) {
-        kiriSeed seed = BorderSeed(job, *cell);
+    KIRI_EACH_LISTED(cell, work->fromSite.settled) {
+        kiriSeed seed = BorderSeed(job, cell);
         if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
             return false;
         }
@@ -650,7 +650,7 @@ static bool WeighCell(ShapeJob* job, int32_t item)
     int64_t share = (int64_t)(area * 1099511627776.0 + 0.5), was = work->rigidShares.data[cell];
     ListWeights(job, cell);
     int32_t count = work->weights.count;
-    size_t bytes = sizeof(kiriCellWeight) * (size_t)count;
+    size_t bytes = sizeof(kiriCellWeight) * count;
     if (span->count != count ||
         (count > 0 && memcmp(&shape->weights.data[span->first], work->weights.data, bytes) != 0)) {
         AddRigid(job, cell, -was);
@@ -744,18 +744,18 @@ static void EndShapeUpdate(ShapeJob* job)
     const kiriGridChanges* changes = &job->grid->changes;
     uint8_t* marks = job->work->marks.data;
     const uint8_t kept = (uint8_t) ~(MARK_STEPS | MARK_GONE | MARK_REGION);
-    KIRI_EACH(const int32_t, at, changes->steps) {
-        marks[*at] &= kept;
+    KIRI_EACH_LISTED(cell, changes->steps) {
+        marks[cell] &= kept;
     }
     KIRI_EACH(const kiriSeed, change, job->regions->changes) {
         marks[change->cell] &= kept;
     }
     KIRI_KEEP_IF(const int32_t, at, shape->changes, (marks[*at] & MARK_GONE) == 0);
-    KIRI_EACH(const int32_t, at, changes->gone) {
-        marks[*at] = 0;
+    KIRI_EACH_LISTED(at, changes->gone) {
+        marks[at] = 0;
     }
-    KIRI_EACH(const int32_t, dirty, job->work->dirtyFrames) {
-        kiriShapeFrame* frame = &job->work->frames.data[*dirty];
+    KIRI_EACH_LISTED(dirty, job->work->dirtyFrames) {
+        kiriShapeFrame* frame = &job->work->frames.data[dirty];
         frame->firstTouch = KIRI_NONE;
         frame->moved = frame->dirty = false;
     }
@@ -853,8 +853,8 @@ void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 void kiriShape_ClearChanges(kiriShape* shape)
 {
     KIRI_ASSERT(shape->work == NULL || !shape->work->running);
-    KIRI_EACH(const int32_t, cell, shape->changes) {
-        shape->work->marks.data[*cell] &= (uint8_t) ~(MARK_CHANGED | MARK_RECOMPUTED);
+    KIRI_EACH_LISTED(cell, shape->changes) {
+        shape->work->marks.data[cell] &= (uint8_t) ~(MARK_CHANGED | MARK_RECOMPUTED);
     }
     shape->changes.count = 0;
     shape->recomputed = 0;

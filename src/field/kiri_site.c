@@ -144,8 +144,8 @@ static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 
 static void ClearTakenMarks(kiriPlacer* placer)
 {
-    KIRI_EACH_WHILE(placer->work->isTaking, const int32_t, at, placer->cells) {
-        placer->work->marks.data[*at] = 0;
+    KIRI_EACH_LISTED_WHILE(placer->work->isTaking, cell, placer->cells) {
+        placer->work->marks.data[cell] = 0;
     }
     placer->work->isTaking = false;
 }
@@ -545,8 +545,8 @@ bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
 {
     kiriMoments sum = { 0 };
     KIRI_ASSERT(placer->work != NULL && count > 0 && count <= most);
-    KIRI_EACH(const int32_t, at, placer->cells) {
-        const kiriMoments material = kiriGrid_Material(grid, *at);
+    KIRI_EACH_LISTED(at, placer->cells) {
+        const kiriMoments material = kiriGrid_Material(grid, at);
         kiriMoments_Add(&sum, &material);
     }
     const kiriVec2 center = kiriMoments_Center(&sum);
@@ -563,8 +563,8 @@ bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
     if (!kiriArray_Reserve(memory, &placer->sites, count)) {
         return false;
     }
-    KIRI_EACH(const int32_t, at, placer->cells) {
-        placer->work->marks.data[*at] = 1; /* no site yet */
+    KIRI_EACH_LISTED(at, placer->cells) {
+        placer->work->marks.data[at] = 1; /* no site yet */
     }
     bool ok = true;
     KIRI_TIMES_WHILE(ok, row, rows) {
@@ -586,8 +586,8 @@ bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
         }
     }
     placer->sites.count = ok ? placer->sites.count : 0;
-    KIRI_EACH(const int32_t, at, placer->cells) {
-        placer->work->marks.data[*at] = 0;
+    KIRI_EACH_LISTED(at, placer->cells) {
+        placer->work->marks.data[at] = 0;
     }
     return true;
 }
@@ -714,8 +714,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         return false;
     }
     /* Only cells of the part are ever read from `sampled` and `holds`: floods do not leave it. */
-    KIRI_EACH(const int32_t, at, placer->cells) {
-        int32_t cell = *at;
+    KIRI_EACH_LISTED(cell, placer->cells) {
         work->sampled.data[cell] = KIRI_FAR;
         work->holds.data[cell] = allowed == NULL || allowed[cell] ? CELL_FREE : CELL_BARRED;
     }

@@ -308,7 +308,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
         !kiriArray_Resize(memory, &stencil->values, count)) {
         return false;
     }
-    memset(stencil->weights.data, 0, sizeof(double) * (size_t)stencil->weights.count);
+    memset(stencil->weights.data, 0, sizeof(double) * stencil->weights.count);
     KIRI_EACH_INDEX(k, stencil->steps) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
         double* weights = stencil->weights.data + (size_t)k * (size_t)count;
@@ -329,8 +329,8 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     stencil->eased = shape->eased;
     bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid) &&
               GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
-    KIRI_EACH(const int32_t, frame, stencil->frames) {
-        stencil->columns.data[*frame] = 0;
+    KIRI_EACH_LISTED(frame, stencil->frames) {
+        stencil->columns.data[frame] = 0;
     }
     stencil->cell = ok ? cell : KIRI_NONE;
     return ok;

@@ -468,7 +468,7 @@ static bool EnterSheet(BladeWalk* walk)
     double least = 2.0;
     kiriNearby nearby = kiriNearby_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
     walk->effort += LOOK_EFFORT;
-    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+    KIRI_EACH_NEARBY(t, nearby) {
         walk->effort += LOOK_EFFORT;
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             double share = EntryOver(walk, h);

@@ -182,8 +182,8 @@ static void NoteVertex(kiriMeshData* mesh, int32_t vertex)
 
 static void EmptyJournal(kiriMeshData* mesh)
 {
-    KIRI_EACH(const int32_t, triangle, mesh->changedTriangles) {
-        mesh->triangles.data[*triangle].marks &= ~KIRI_TRIANGLE_CHANGED;
+    KIRI_EACH_LISTED(triangle, mesh->changedTriangles) {
+        mesh->triangles.data[triangle].marks &= ~KIRI_TRIANGLE_CHANGED;
     }
     mesh->changedTriangles.count = mesh->changedVertices.count = 0;
 }
@@ -585,7 +585,7 @@ static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
     kiriMemory_Free(mesh->memory, room);
     ok = ok && kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)left);
     KIRI_TIMES_WHILE(ok, k, left) {
-        kiriMesh_SourceCorners(from, sources[k], &mesh->sourceCorners.data[3 * (size_t)k]);
+        kiriMesh_SourceCorners(from, sources[k], &mesh->sourceCorners.data[3 * k]);
     }
     return ok;
 }

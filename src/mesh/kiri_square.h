@@ -125,6 +125,9 @@ kiriNearby kiriNearby_Begin(const kiriSquares* squares, kiriLatticePoint from, k
 /* Returns the next triangle, or KIRI_NONE after the last. */
 int32_t kiriNearby_Next(kiriNearby* nearby);
 
+#define KIRI_EACH_NEARBY(triangle, nearby)                                                                             \
+    for (int32_t triangle; (triangle = kiriNearby_Next(&(nearby))) != KIRI_NONE;)
+
 KIRI_C_END
 
 #endif

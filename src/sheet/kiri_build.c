@@ -216,7 +216,7 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
 static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index, int32_t* holder,
                            kiriFault* fault)
 {
-    const float* point = &def->framePoints[2 * (size_t)index];
+    const float* point = &def->framePoints[2 * index];
     kiriSites* sites = &sheet->update->placing.sites;
     kiriLatticePoint at;
     kiriSite site = { kiriSheet_ToLocal(sheet, point), KIRI_NONE };

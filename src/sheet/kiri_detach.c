@@ -252,8 +252,8 @@ static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* t
 {
     const kiriIndices points = ItemsOf(detach, KIRI_LISTED_POINTS, piece);
     bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, k, points) {
-        kiriSample point = { detach->sheet->points.data[points.data[k]].at, KIRI_NONE, KIRI_NONE };
+    KIRI_EACH_LISTED_WHILE(ok, was, points) {
+        kiriSample point = { detach->sheet->points.data[was].at, KIRI_NONE, KIRI_NONE };
         kiriSpan none = { 0 };
         ok = kiriArray_Push(to->memory, &to->points, point) &&
              kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
@@ -267,8 +267,8 @@ static void CopyTouches(const kiriDetach* detach, const kiriIndices* items, cons
                         kiriSheetData* to, kiriTouchMemory* memory)
 {
     int32_t before = memory->touches.count;
-    KIRI_EACH(const int32_t, item, *items) {
-        kiriTouch touch = from->touches.data[*item];
+    KIRI_EACH_LISTED(item, *items) {
+        kiriTouch touch = from->touches.data[item];
         kiriVec3 force = kiriTouches_ForceOf(detach->sheet, touch.key);
         if (FollowTouch(&detach->part, &touch)) {
             kiriTouchMemory_Add(memory, &touch, force);
@@ -317,8 +317,8 @@ static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kir
     if (items->count > 0 && !kiriArray_Reserve(memory, &to->fading, samples->count)) {
         return false;
     }
-    KIRI_EACH(const int32_t, item, *items) {
-        kiriFading fading = from->fading.data[*item];
+    KIRI_EACH_LISTED(item, *items) {
+        kiriFading fading = from->fading.data[item];
         fading.sample = kiriKeep_To(samples, fading.sample);
         KIRI_NEXT(to->fading) = fading;
     }
@@ -373,8 +373,8 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
         int32_t frame = kiriSubset_FrameOfPin(part, i);
         ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
     }
-    KIRI_EACH_WHILE(ok, const int32_t, vertex, vertices.items) { /* to weigh them gives the same bits */
-        ok = kiriSkin_StageCopy(&to->vertexSkin, to->memory, &from->vertexSkin, *vertex, &part->frames);
+    KIRI_EACH_LISTED_WHILE(ok, vertex, vertices.items) { /* to weigh them gives the same bits */
+        ok = kiriSkin_StageCopy(&to->vertexSkin, to->memory, &from->vertexSkin, vertex, &part->frames);
     }
     if (!ok || !CopyContacts(detach, piece, to) || !kiriPipeline_Make(to, KIRI_READY) ||
         !CopyFades(&fades, &from->seen.fades, &part->vertices, &to->seen.fades, to->memory) ||
@@ -670,7 +670,7 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     const kiriLayout *made = &u->next, *read = &sheet->layout;
     bool isSame =
         u->placing.sites.count == sheet->frames.count && made->pieces.count == read->pieces.count &&
-        memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)sheet->frames.count) == 0;
+        memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * sheet->frames.count) == 0;
     /* kiriSites_Relocate failed although its arrays are reserved: two sites share a cell. */
     bool isCrowded = u->stage == KIRI_STAGE_REGIONS && u->step == 0 &&
                      u->placing.flags.count >= sheet->grid.cells.count &&

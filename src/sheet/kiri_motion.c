@@ -43,8 +43,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    KIRI_EACH(const int32_t, frame, sheet->solver->moved.frames) {
-        kiriFrame_DropForces(&sheet->frames.data[*frame]);
+    KIRI_EACH_LISTED(frame, sheet->solver->moved.frames) {
+        kiriFrame_DropForces(&sheet->frames.data[frame]);
     }
 }
 
@@ -79,8 +79,8 @@ static void FallAsleep(kiriSheetData* sheet)
         if (!rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading) {
             kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, p);
             rest->asleep = true;
-            KIRI_EACH(const int32_t, at, frames) {
-                kiriFrame_PutToRest(&sheet->frames.data[*at]);
+            KIRI_EACH_LISTED(frame, frames) {
+                kiriFrame_PutToRest(&sheet->frames.data[frame]);
             }
         }
     }
@@ -98,8 +98,8 @@ int64_t kiriMotion_WorkOf(const kiriSheetData* sheet, int32_t body)
 static int64_t ItemsOfMoved(const kiriSheetData* sheet)
 {
     int64_t work = 0;
-    KIRI_EACH(const int32_t, body, sheet->solver->moved.bodies) {
-        work += kiriMotion_WorkOf(sheet, *body);
+    KIRI_EACH_LISTED(body, sheet->solver->moved.bodies) {
+        work += kiriMotion_WorkOf(sheet, body);
     }
     return kiriSolver_ItemsOf(work);
 }
@@ -110,8 +110,8 @@ static void Defer(kiriSheetData* sheet, int32_t body)
     KIRI_ASSERT(body >= 0 && body < sheet->layout.pieces.count && !sheet->layout.pieces.data[body].rest.waits);
     kiriRest* rest = &sheet->layout.pieces.data[body].rest;
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
-    KIRI_EACH(const int32_t, at, frames) {
-        kiriFrame_DropForces(&sheet->frames.data[*at]);
+    KIRI_EACH_LISTED(frame, frames) {
+        kiriFrame_DropForces(&sheet->frames.data[frame]);
     }
     rest->waits = true;
     sheet->turns.waiting += 1;
@@ -125,8 +125,8 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
     const kiriIndices* moved = &sheet->solver->moved.bodies;
     int32_t count = moved->count, first = 0, next = 0;
     int64_t taken = 0;
-    KIRI_EACH(const int32_t, body, *moved) {
-        sheet->solver->bodies.bodies.data[*body].contactCount = 0;
+    KIRI_EACH_LISTED(body, *moved) {
+        sheet->solver->bodies.bodies.data[body].contactCount = 0;
     }
     KIRI_EACH(const kiriTouch, touch, sheet->touches.found) { /* contact rows are not written yet */
         sheet->solver->bodies.bodies.data[kiriTouch_Piece(sheet, touch)].contactCount += 1;
@@ -203,12 +203,12 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
-    KIRI_EACH(const int32_t, body, sheet->solver->moved.bodies) {
-        kiriRest* rest = &sheet->layout.pieces.data[*body].rest;
-        kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, *body);
+    KIRI_EACH_LISTED(body, sheet->solver->moved.bodies) {
+        kiriRest* rest = &sheet->layout.pieces.data[body].rest;
+        kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
         double spare = 0.0;
-        KIRI_EACH(const int32_t, at, frames) {
-            const kiriFrameData* frame = &sheet->frames.data[*at];
+        KIRI_EACH_LISTED(at, frames) {
+            const kiriFrameData* frame = &sheet->frames.data[at];
             double taken = kiriMin(frame->history.credit, 0.0); /* the pose moved with it */
             double moves = (kiriFrame_KineticEnergy(frame, &sheet->settings.material) - taken) / frame->mass;
             spare += frame->mass * (limit * limit - moves * moves);
@@ -221,11 +221,11 @@ static void CountCalm(kiriSheetData* sheet, double dt)
 static void Stop(kiriSheetData* sheet)
 {
     const kiriMoved* moved = &sheet->solver->moved;
-    KIRI_EACH(const int32_t, frame, moved->frames) {
-        kiriFrame_PutToRest(&sheet->frames.data[*frame]);
+    KIRI_EACH_LISTED(frame, moved->frames) {
+        kiriFrame_PutToRest(&sheet->frames.data[frame]);
     }
-    KIRI_EACH(const int32_t, body, moved->bodies) {
-        kiriSheet_WakePiece(sheet, *body);
+    KIRI_EACH_LISTED(body, moved->bodies) {
+        kiriSheet_WakePiece(sheet, body);
     }
     kiriPins_ClearReactions(sheet);
     kiriTouches_Clear(sheet);
@@ -270,7 +270,7 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
         return true; /* the tick needs them more */
     }
     tears->before.count = sheet->frames.count;
-    memcpy(tears->before.data, sheet->frames.data, sizeof(kiriFrameData) * (size_t)sheet->frames.count);
+    memcpy(tears->before.data, sheet->frames.data, sizeof(kiriFrameData) * sheet->frames.count);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     KIRI_EACH(kiriPinRow, pin, sheet->pinRows) {
         pin->reaction = NULL;
@@ -281,8 +281,8 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
     kiriSystem system = MakeSystem(sheet, gravity);
     system.contactCount = 0;
     kiriSolver_ShareRows(sheet->solver, &system);
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.bodies) {
-        solved = kiriMax(kiriSolver_Step(sheet->solver, &system, *at, dt, iterations, (int32_t)most), solved);
+    KIRI_EACH_LISTED(body, sheet->solver->moved.bodies) {
+        solved = kiriMax(kiriSolver_Step(sheet->solver, &system, body, dt, iterations, (int32_t)most), solved);
     }
     return kiriQuota_Take(systems, solved * items);
 }
@@ -291,7 +291,7 @@ void kiriMotion_Return(kiriSheetData* sheet)
 {
     if (sheet->tears.before.count > 0) {
         KIRI_ASSERT(sheet->tears.before.count == sheet->frames.count);
-        memcpy(sheet->frames.data, sheet->tears.before.data, sizeof(kiriFrameData) * (size_t)sheet->frames.count);
+        memcpy(sheet->frames.data, sheet->tears.before.data, sizeof(kiriFrameData) * sheet->frames.count);
         sheet->tears.before.count = 0;
     }
 }

@@ -139,7 +139,7 @@ static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t o
         bool isNew = staged->sample >= oldCount;
         const kiriSpan* was = isNew ? NULL : &skin->spans.data[staged->sample];
         piece->isTouched = piece->isTouched || isNew || was->count != staged->span.count ||
-                           memcmp(&skin->weights.data[was->first], weights, sizeof(*weights) * (size_t)was->count) != 0;
+                           memcmp(&skin->weights.data[was->first], weights, sizeof(*weights) * was->count) != 0;
     }
 }
 
@@ -205,11 +205,11 @@ bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece)
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
     kiriVec3 sum = { 0 };
     bool folds = false;
-    KIRI_EACH_INDEX(k, frames) {
-        sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
+    KIRI_EACH_LISTED(frame, frames) {
+        sum = kiriVec3_Add(sum, sheet->frames.data[frame].A.d);
     }
-    KIRI_EACH_INDEX_WHILE(!folds, k, frames) {
-        folds = kiriVec3_Dot(sum, sheet->frames.data[frames.data[k]].A.d) < 0.3 * kiriVec3_Length(sum);
+    KIRI_EACH_LISTED_WHILE(!folds, frame, frames) {
+        folds = kiriVec3_Dot(sum, sheet->frames.data[frame].A.d) < 0.3 * kiriVec3_Length(sum);
     }
     return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]);
 }
@@ -397,7 +397,7 @@ static bool ListMesh(kiriSheetData* sheet, int32_t* pieces)
         pieces[v] = kiriPiece_OfVertex(sheet, v);
     }
     KIRI_TIMES(t, triangles) {
-        int32_t piece = pieces[indices[3 * (size_t)t]];
+        int32_t piece = pieces[indices[3 * t]];
         trianglePieces[t] = layout->pieces.data[piece].isGone ? KIRI_NONE : piece;
     }
     if (!kiriPieceItems_List(&lists->vertices, memory, layout->pieces.count, pieces, vertices) ||
@@ -406,7 +406,7 @@ static bool ListMesh(kiriSheetData* sheet, int32_t* pieces)
         return false;
     }
     KIRI_EACH_INDEX(i, lists->triangles.items) {
-        memcpy(&lists->corners.data[3 * (size_t)i], &indices[3 * (size_t)lists->triangles.items.data[i]],
+        memcpy(&lists->corners.data[3 * i], &indices[3 * lists->triangles.items.data[i]],
                3 * sizeof(int32_t));
     }
     return true;
@@ -452,10 +452,10 @@ static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], flo
         return;
     }
     float least[3], most[3];
-    memcpy(least, positions + 3 * (size_t)vertices[0], sizeof(least));
+    memcpy(least, positions + 3 * vertices[0], sizeof(least));
     memcpy(most, least, sizeof(most));
     KIRI_FROM_TO(i, 1, span.count) {
-        const float* x = positions + 3 * (size_t)vertices[i];
+        const float* x = positions + 3 * vertices[i];
         KIRI_TIMES(k, 3) {
             least[k] = kiriMin(x[k], least[k]);
             most[k] = kiriMax(x[k], most[k]);

@@ -258,7 +258,7 @@ static kiriPinRow HingeRow(const kiriSheetData* sheet, kiriPinShare* pinned, int
     kiriVec2 site = sheet->frames.data[pinned->share.frame].site.at;
     RestLine line = RestLineOf(sheet, pin);
     kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, site);
-    double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Make(-line.along.y, line.along.x)));
+    double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Left(line.along)));
     double length = kiriMax(away, shape.least);
     double stiffness = (double)material->youngsModulus * material->thickness * shape.width / length;
     kiriMat3 rotation = RotationAfter(pin, to);
@@ -315,8 +315,8 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
             KIRI_CLEAR(&pinned->reactions[k].impulse);
         }
     }
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        KIRI_CLEAR(&sheet->frames.data[*at].reaction.impulse);
+    KIRI_EACH_LISTED(frame, sheet->solver->moved.frames) {
+        KIRI_CLEAR(&sheet->frames.data[frame].reaction.impulse);
     }
 }
 
@@ -491,8 +491,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet, kiriSystem system)
 int32_t kiriPins_WriteClamps(const kiriSheetData* sheet, kiriClampRow* rows)
 {
     int32_t count = 0;
-    KIRI_EACH_INDEX(k, sheet->layout.pinShares) {
-        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             rows[count++] = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 1.0);
         }
@@ -557,8 +556,8 @@ void kiriPins_SumShares(kiriSheetData* sheet)
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        kiriFrameData* frame = &sheet->frames.data[*at];
+    KIRI_EACH_LISTED(at, sheet->solver->moved.frames) {
+        kiriFrameData* frame = &sheet->frames.data[at];
         KIRI_CLEAR(&frame->bore);
         kiriWrench_Add(&frame->bore, 1.0 / dt, &frame->reaction.impulse);
     }
@@ -653,7 +652,7 @@ static void ListDrawnLine(kiriSheetData* sheet, const kiriPinShare* pinned)
     at = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
     double part = ListDrawn(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, at),
                             HeldPoint(&line, pin->target, &pin->rotation, at), &place);
-    kiriVec2 left = { -line.along.y, line.along.x };
+    kiriVec2 left = kiriVec2_Left(line.along);
     double away = kiriVec2_Dot(way, left);
     shift->from = line.from;
     shift->across = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
@@ -731,7 +730,7 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     }
     KIRI_TIMES_WHILE(isAny, v, surface->vertexCount) {
         if (kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, v)])) {
-            float* offset = surface->detail.offsets.data + 3 * (ptrdiff_t)v;
+            float* offset = surface->detail.offsets.data + 3 * v;
             kiriVec3_Store(offset, kiriVec3_Add(kiriVec3_Load(offset), ShiftOf(sheet, v)));
         }
     }
@@ -785,8 +784,7 @@ void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
     if (MoveTargets(sheet, (i + 1) * h, h)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
-    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
-        int32_t f = *at;
+    KIRI_EACH_LISTED(f, sheet->solver->moved.frames) {
         if (sheet->frames.data[f].held) {
             MoveHeld(&sheet->frames.data[f], n - i);
         }

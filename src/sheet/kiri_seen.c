@@ -69,7 +69,7 @@ static kiriVec3 FanNormal(const kiriSheetData* sheet, const float* places, int32
 static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
 {
     const kiriSurface* surface = &sheet->seen.surface;
-    return surface->hasNormals ? kiriVec3_Load(&surface->normals.data[3 * (size_t)vertex])
+    return surface->hasNormals ? kiriVec3_Load(&surface->normals.data[3 * vertex])
                                : FanNormal(sheet, kiriSurface_Drawn(surface), vertex);
 }
 
@@ -291,7 +291,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
             kiriDetail_Bear(&sheet->seen.surface.detail, v, birth);
             kiriSurface_DrawRange(&sheet->seen.surface, v, v + 1);
             kiriVec3 drawn = kiriVec3_Load(kiriSurface_Drawn(&sheet->seen.surface) + 3 * v);
-            kiriVec3_Store(&sheet->seen.surface.positions.data[3 * (size_t)v],
+            kiriVec3_Store(&sheet->seen.surface.positions.data[3 * v],
                            kiriVec3_Add(sheet->seen.surface.middle, drawn));
         }
     }
@@ -393,7 +393,7 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
 {
     float was[3 * KIRI_BLOCK];
     kiriFades* fades = &sheet->seen.fades;
-    memcpy(was, look->before + 3 * begin, 3 * sizeof(float) * (size_t)(end - begin));
+    memcpy(was, look->before + 3 * begin, 3 * sizeof(float) * (end - begin));
     kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
     const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * begin;
     if (look->isShifted || (fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample < end) ||
@@ -455,7 +455,7 @@ static void TakePointJumps(kiriSheetData* sheet)
     kiriSeen* seen = &sheet->seen;
     const kiriVec3 *was = seen->pointsBefore.data, *is = seen->exactPoints.data;
     if (seen->pointCount > 0) {
-        memcpy(seen->pointsBefore.data, is, sizeof(kiriVec3) * (size_t)seen->pointCount);
+        memcpy(seen->pointsBefore.data, is, sizeof(kiriVec3) * seen->pointCount);
     }
     BlendPoints(sheet, false);
     kiriFades_Start(&seen->pointFades);
@@ -609,7 +609,7 @@ static void MarkHeld(kiriSheetData* sheet, kiriLatticePoint at, kiriLatticePoint
     const kiriMeshData* mesh = &sheet->mesh;
     kiriVec2 from = kiriMesh_Local(mesh, at), end = kiriMesh_Local(mesh, to);
     kiriNearby nearby = kiriNearby_Begin(&mesh->squares, at, to, 0.0);
-    for (int32_t triangle = kiriNearby_Next(&nearby); triangle != KIRI_NONE; triangle = kiriNearby_Next(&nearby)) {
+    KIRI_EACH_NEARBY(triangle, nearby) {
         KIRI_FROM_TO(h, 3 * triangle, 3 * triangle + 3) {
             kiriVec2 p = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
             double next = kiriVec2_Distance(p, kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h))),
@@ -697,7 +697,7 @@ static void LetOffsetsGo(kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     const float kept = 0.8f;
     KIRI_FROM_TO(v, begin, end) {
-        float* offset = sheet->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)v;
+        float* offset = sheet->seen.surface.detail.offsets.data + 3 * v;
         if ((offset[0] != 0.0f || offset[1] != 0.0f || offset[2] != 0.0f) && IsVertexAwake(sheet, v)) {
             KIRI_TIMES(k, 3) {
                 offset[k] = fabsf(offset[k]) > 1e-12f ? kept * offset[k] : 0.0f;

@@ -140,7 +140,7 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
                              isStaged,
                              a,
                              along,
-                             { -along.y, along.x },
+                             kiriVec2_Left(along),
                              length,
                              isStaged ? sheet->links.next.data : sheet->links.links.data,
                              isStaged ? sheet->links.next.count : sheet->links.links.count };
@@ -341,8 +341,7 @@ static bool MovePair(kiriSheetData* sheet, const kiriSlitEnd* end, int32_t piece
 bool kiriSites_FollowTears(kiriSheetData* sheet)
 {
     bool ok = true, isUpdate = sheet->update->cut.taken > 0; /* else a load makes the field again */
-    KIRI_EACH_INDEX_WHILE(ok && isUpdate, c, sheet->cuts) {
-        const kiriCutData* cut = sheet->cuts.data[c];
+    KIRI_EACH_OF_WHILE(ok && isUpdate, kiriCutData, cut, sheet->cuts) {
         int32_t vertex = cut->tip.blade.vertex;
         kiriSlitEnd end;
         bool mayTear = kiriCut_IsTear(cut) || (cut->ended && kiriTears_MayGrow(sheet));
@@ -385,8 +384,8 @@ static double TakenArea(const kiriSheetData* sheet)
 {
     const kiriPlacer* placer = &sheet->update->placing.placer;
     double area = 0.0;
-    KIRI_EACH(const int32_t, at, placer->cells) {
-        area += kiriGrid_Area(&sheet->grid, *at);
+    KIRI_EACH_LISTED(cell, placer->cells) {
+        area += kiriGrid_Area(&sheet->grid, cell);
     }
     return area;
 }
@@ -497,7 +496,7 @@ static bool FindHoldEnd(const kiriSheetData* sheet, const kiriPinData* pin, int3
     kiriVec2 along = pin->type == KIRI_PIN_POINT ? kiriVec2_Make(k % 2, 1 - k % 2)
                                                  : kiriVec2_Normalize(kiriVec2_Sub(to, from));
     double side = k < 2 ? 1.0 : -1.0;
-    end->along = kiriVec2_Make(-side * along.y, side * along.x);
+    end->along = kiriVec2_Scale(side, kiriVec2_Left(along));
     end->at = kiriVec2_AddScaled(k % 2 == 0 ? from : to, inset, end->along);
     end->cell = kiriGrid_CellAt(grid, kiriMesh_Snap(grid->mesh, end->at));
     return end->cell != KIRI_NONE && kiriSlit_SiteBeside(grid, end, inset).cell != KIRI_NONE &&
@@ -533,8 +532,8 @@ static bool AddHoldEnds(kiriSheetData* sheet)
             kiriSlitEnd end;
             bool isHere = false;
             if (FindHoldEnd(sheet, pin, k, &end)) {
-                KIRI_EACH_WHILE(!isHere, const int32_t, at, placer->cells) {
-                    isHere = *at == end.cell;
+                KIRI_EACH_LISTED_WHILE(!isHere, cell, placer->cells) {
+                    isHere = cell == end.cell;
                 }
             }
             if (isHere && !kiriArray_Push(sheet->memory, &placer->ends, end)) {
@@ -583,8 +582,8 @@ static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* c
     if (progress != KIRI_DONE) {
         return progress;
     }
-    KIRI_EACH(const int32_t, at, placing->placer.cells) {
-        placing->marks.data[*at] = 1;
+    KIRI_EACH_LISTED(at, placing->placer.cells) {
+        placing->marks.data[at] = 1;
     }
     int32_t count = FramesFor(sheet, 0);
     placing->pieces -= placing->pieces > 0;
@@ -672,8 +671,8 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     }
     int32_t last = KIRI_NONE; /* cache: consecutive cells are mostly of one region */
     bool isLarge = false;
-    KIRI_EACH(const int32_t, at, placing->placer.cells) {
-        int32_t cell = *at, owner = sheet->regions.field.owner.data[cell];
+    KIRI_EACH_LISTED(cell, placing->placer.cells) {
+        int32_t owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
         isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
         last = owner;
@@ -693,8 +692,8 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     kiriPlacingWork* placing = &sheet->update->placing;
     placing->placer.sites.count = placing->own.count = 0;
     *old = false;
-    KIRI_EACH(const int32_t, at, placing->placer.cells) {
-        int32_t frame = sheet->regions.siteAt.data[*at];
+    KIRI_EACH_LISTED(cell, placing->placer.cells) {
+        int32_t frame = sheet->regions.siteAt.data[cell];
         if (frame != KIRI_NONE) {
             placing->marks.data[frame] = 1;
             *old = *old || frame < sheet->frames.count;
@@ -705,8 +704,8 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     }
     kiriSort(placing->own.data, placing->own.count, NULL, NULL);
     bool ok = true;
-    KIRI_EACH_WHILE(ok, const int32_t, own, placing->own) {
-        ok = kiriArray_Push(sheet->memory, &placing->placer.sites, placing->sites.data[*own]);
+    KIRI_EACH_LISTED_WHILE(ok, own, placing->own) {
+        ok = kiriArray_Push(sheet->memory, &placing->placer.sites, placing->sites.data[own]);
     }
     return ok;
 }
@@ -766,8 +765,7 @@ static bool GiveSites(kiriSheetData* sheet)
     if (isAgain && placing->placer.sites.count <= placing->own.count) {
         return true;
     }
-    KIRI_EACH_WHILE(ok && isAgain, const int32_t, own, placing->own) {
-        int32_t f = *own;
+    KIRI_EACH_LISTED_WHILE(ok && isAgain, f, placing->own) {
         ok = RecordMove(sheet, f, placing->sites.data[f].cell);
         placing->sites.data[f] = placing->placer.sites.data[next++];
     }

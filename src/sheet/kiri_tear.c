@@ -69,7 +69,7 @@ static bool IsClear(const kiriSheetData* sheet, kiriVec2 p)
     kiriLatticePoint at = kiriMesh_Snap(mesh, p);
     kiriNearby around = kiriNearby_Begin(&mesh->squares, at, at, sheet->settings.snap);
     bool isClear = true;
-    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+    KIRI_EACH_NEARBY(t, around) {
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));
             kiriVec2 b = kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h));
@@ -153,7 +153,7 @@ static void MeasurePulls(kiriSheetData* sheet)
     KIRI_ASSERT(count <= tears->pulls.capacity && sheet->frames.count <= tears->regions.capacity);
     tears->pulls.count = count;
     tears->regions.count = sheet->frames.count;
-    memset(tears->regions.data, 0, sizeof(kiriPlasticRegion) * (size_t)sheet->frames.count);
+    memset(tears->regions.data, 0, sizeof(kiriPlasticRegion) * sheet->frames.count);
     KIRI_TIMES(k, count) {
         double *pull = tears->pulls.data[k].strain, w = links[k].width / links[k].length;
         MeasurePull(sheet, k, &links[k], &sheet->frames.data[links[k].i], &sheet->frames.data[links[k].j], pull);
@@ -410,7 +410,7 @@ static double FreePart(const kiriSheetData* sheet, kiriVec2 from, kiriVec2 way, 
     kiriLatticePoint start = kiriMesh_Snap(mesh, from), end = kiriMesh_Snap(mesh, kiriVec2_Add(from, way));
     double part = 1.0;
     kiriNearby around = kiriNearby_Begin(&mesh->squares, start, end, 0.0);
-    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+    KIRI_EACH_NEARBY(t, around) {
         KIRI_FROM_TO(h, 3 * t, 3 * t + 3) {
             if (IsTornEdge(mesh, h) && kiriMesh_Tail(mesh, h) != vertex && kiriMesh_Head(mesh, h) != vertex) {
                 kiriVec2 a = kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h));

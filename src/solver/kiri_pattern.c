@@ -44,8 +44,8 @@ static bool Transpose(kiriMatrix* matrix, const kiriColumns* from, kiriColumns* 
         return false;
     }
     kiriArray_Set(&to->start, 0);
-    KIRI_EACH(const int32_t, column, from->row) {
-        to->start.data[*column] += 1;
+    KIRI_EACH_LISTED(column, from->row) {
+        to->start.data[column] += 1;
     }
     SumCounts(&to->start);
     for (int32_t r = matrix->count - 1, b = from->row.count - 1; r >= 0; --r) {

@@ -106,7 +106,7 @@ static void SortByCodes(kiriBounds* bounds, int32_t count)
         KIRI_TIMES(i, count) {
             bounds->other.data[starts[(codes[from[i]] >> shift) & mask]++] = from[i];
         }
-        memcpy(from, bounds->other.data, sizeof(int32_t) * (size_t)count);
+        memcpy(from, bounds->other.data, sizeof(int32_t) * count);
     }
 }
 
@@ -149,7 +149,7 @@ static kiriBox BoxOfLeaf(const kiriSurface* surface, const int32_t* triangles, i
     KIRI_TIMES(i, count) {
         const int32_t* corner = kiriSurface_Triangle(surface, triangles[i]);
         KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
-            const float* at = places + 3 * (size_t)corner[k];
+            const float* at = places + 3 * corner[k];
             KIRI_TIMES(m, 3) {
                 lower[m] = kiriMin(at[m], lower[m]);
                 upper[m] = kiriMax(at[m], upper[m]);
@@ -210,7 +210,7 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
             int32_t first, end = LeafItems(bounds, level, node, &first);
             moves[node] = 0;
             for (int32_t i = first; !moves[node] && i < end; ++i) {
-                int32_t vertex = level > 0 ? 0 : surface->indices.data[3 * (size_t)bounds->order.data[i]];
+                int32_t vertex = level > 0 ? 0 : surface->indices.data[3 * bounds->order.data[i]];
                 moves[node] = level > 0 ? moves[i] : movers->data[vertex / movers->block] != KIRI_NONE;
             }
         }
@@ -373,7 +373,7 @@ bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface,
 /* Returns the group of a triangle, or KIRI_NONE if it is hidden. */
 static int32_t GroupOf(const kiriSurface* surface, const int32_t* ofVertex, int32_t triangle)
 {
-    return IsHidden(surface, triangle) ? KIRI_NONE : ofVertex[surface->indices.data[3 * (size_t)triangle]];
+    return IsHidden(surface, triangle) ? KIRI_NONE : ofVertex[surface->indices.data[3 * triangle]];
 }
 
 /* Writes the groups in each box. Returns the number of leaves that have several groups. */

@@ -34,7 +34,7 @@ void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames)
     int32_t was = detail->offsets.count, is = kiriDetail_IsOn(detail) ? 3 * vertices : 0;
     KIRI_ASSERT(is <= detail->offsets.capacity && (detail->sweeps == 0 || frames <= detail->awake.capacity));
     if (is > was) {
-        memset(detail->offsets.data + was, 0, sizeof(float) * (size_t)(is - was));
+        memset(detail->offsets.data + was, 0, sizeof(float) * (is - was));
     }
     detail->offsets.count = detail->drawn.count = is;
     detail->awake.count = detail->sweeps > 0 ? frames : 0;
@@ -75,10 +75,10 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
     uint32_t* marks = (void*)detail->crease.data;
     uint8_t* colors = (uint8_t*)(marks + mesh->vertices.count);
     KIRI_ASSERT(mesh->vertices.count + (int64_t)halfEdges / 4 < detail->crease.capacity);
-    memset(marks, 0xFF, sizeof(*marks) * (size_t)mesh->vertices.count);
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        KIRI_ASSERT_HAS(mesh->vertices, detail->vertices.data[k].vertex);
-        marks[detail->vertices.data[k].vertex] = 0;
+    memset(marks, 0xFF, sizeof(*marks) * mesh->vertices.count);
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        KIRI_ASSERT_HAS(mesh->vertices, item->vertex);
+        marks[item->vertex] = 0;
     }
     KIRI_TIMES(h, halfEdges) {
         if (IsListed(mesh, marks, h)) {
@@ -107,15 +107,15 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
             kiriDetailEdge* edge = &detail->edges.data[counts[colors[h]]++];
             edge->a = kiriMesh_Tail(mesh, h);
             edge->b = kiriMesh_Head(mesh, h);
-            kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, mesh->vertices.data[edge->b].at),
-                                          kiriMesh_Local(mesh, mesh->vertices.data[edge->a].at));
-            edge->rest = (float)sqrt(along.x * along.x + along.y * along.y);
+            kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)),
+                                          kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)));
+            edge->rest = (float)kiriVec2_Length(along);
         }
     }
-    memset(marks, 0, sizeof(*marks) * (size_t)mesh->vertices.count); /* now: number of edges, and the border */
-    KIRI_EACH_INDEX(k, detail->edges) {
-        marks[detail->edges.data[k].a] += 1;
-        marks[detail->edges.data[k].b] += 1;
+    memset(marks, 0, sizeof(*marks) * mesh->vertices.count); /* now: number of edges, and the border */
+    KIRI_EACH(const kiriDetailEdge, edge, detail->edges) {
+        marks[edge->a] += 1;
+        marks[edge->b] += 1;
     }
     KIRI_TIMES(h, halfEdges) {
         if (kiriMesh_IsBorder(mesh, h)) {
@@ -123,11 +123,11 @@ void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
             marks[kiriMesh_Head(mesh, h)] |= BORDER;
         }
     }
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        uint32_t mark = marks[detail->vertices.data[k].vertex];
+    KIRI_EACH(kiriDetailVertex, item, detail->vertices) {
+        uint32_t mark = marks[item->vertex];
         KIRI_ASSERT((mark & ~BORDER) > 0);
         float share = 1.0f / (float)(mark & ~BORDER);
-        detail->vertices.data[k].share = (mark & BORDER) != 0 ? -share : share;
+        item->share = (mark & BORDER) != 0 ? -share : share;
     }
     detail->isListed = true;
 }
@@ -206,7 +206,7 @@ void kiriDetail_Sweep(int32_t begin, int32_t end, void* context)
         kiriDetailEdge padded[4] = { none, none, none, none };
         if (real < 4) {
             memset(detail->moving.data + 4 * vertices, 0, 8 * sizeof(float));
-            memcpy(padded, four, sizeof(*four) * (size_t)real);
+            memcpy(padded, four, sizeof(*four) * real);
             four = padded;
         }
         RelaxFour(detail->moving.data, four);
@@ -238,35 +238,32 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
 {
     float *offsets = detail->moving.data, *crease = detail->crease.data;
     KIRI_ASSERT(detail->isListed);
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        ptrdiff_t vertex = detail->vertices.data[k].vertex;
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        int32_t vertex = item->vertex;
         kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
         kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Sub(kiriLanes_Load(offsets + 4 * vertex), from));
         kiriLanes_Store(crease + 4 * vertex, kiriLanes_Splat(0.0f));
     }
-    KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = crease + 4 * detail->edges.data[k].a,
-              *b = crease + 4 * detail->edges.data[k].b;
+    KIRI_EACH(const kiriDetailEdge, edge, detail->edges) {
+        float *a = crease + 4 * edge->a, *b = crease + 4 * edge->b;
         kiriLanes by = kiriLanes_Sub(kiriLanes_Load(offsets + (b - crease)), kiriLanes_Load(offsets + (a - crease)));
         kiriLanes_Store(a, kiriLanes_Add(kiriLanes_Load(a), by));
         kiriLanes_Store(b, kiriLanes_Sub(kiriLanes_Load(b), by));
     }
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        kiriDetailVertex item = detail->vertices.data[k];
-        float* of = crease + 4 * item.vertex;
-        kiriLanes_Store(of, kiriLanes_Mul(kiriLanes_Splat(kiriMax(item.share, 0.0f)), kiriLanes_Load(of)));
-        of[3] = item.leash > 0.0f ? SMOOTHING * fabsf(item.share) : 0.0f;
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        float* of = crease + 4 * item->vertex;
+        kiriLanes_Store(of, kiriLanes_Mul(kiriLanes_Splat(kiriMax(item->share, 0.0f)), kiriLanes_Load(of)));
+        of[3] = item->leash > 0.0f ? SMOOTHING * fabsf(item->share) : 0.0f;
     }
-    KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = offsets + 4 * detail->edges.data[k].a,
-              *b = offsets + 4 * detail->edges.data[k].b;
+    KIRI_EACH(const kiriDetailEdge, edge, detail->edges) {
+        float *a = offsets + 4 * edge->a, *b = offsets + 4 * edge->b;
         kiriLanes first = kiriLanes_Load(crease + (a - offsets)), second = kiriLanes_Load(crease + (b - offsets));
         kiriLanes by = kiriLanes_Sub(second, first);
         kiriLanes_Store(a, kiriLanes_Sub(kiriLanes_Load(a), kiriLanes_Mul(kiriLanes_Pick(first, 3, 3, 3, 3), by)));
         kiriLanes_Store(b, kiriLanes_Add(kiriLanes_Load(b), kiriLanes_Mul(kiriLanes_Pick(second, 3, 3, 3, 3), by)));
     }
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        ptrdiff_t vertex = detail->vertices.data[k].vertex;
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        int32_t vertex = item->vertex;
         kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
         kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Add(kiriLanes_Load(offsets + 4 * vertex), from));
     }
@@ -275,12 +272,11 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
 void kiriDetail_End(kiriDetail* detail, const float* skin)
 {
     KIRI_ASSERT(detail->isListed);
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        kiriDetailVertex item = detail->vertices.data[k];
-        const float *at = detail->moving.data + 4 * item.vertex, *from = skin + 3 * item.vertex;
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        const float *at = detail->moving.data + 4 * item->vertex, *from = skin + 3 * item->vertex;
         float by[3] = { at[0] - from[0], at[1] - from[1], at[2] - from[2] }, *to = detail->offsets.data + (from - skin);
         float square = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
-        bool isSound = square <= (item.leash > 0.0f ? 4.0f * item.leash * item.leash : 1e18f); /* false for NaN */
+        bool isSound = square <= (item->leash > 0.0f ? 4.0f * item->leash * item->leash : 1e18f); /* false for NaN */
         KIRI_TIMES(i, 3) {
             to[i] = isSound ? by[i] : 0.0f;
         }
@@ -290,8 +286,8 @@ void kiriDetail_End(kiriDetail* detail, const float* skin)
 void kiriDetail_Measure(kiriDetail* detail)
 {
     detail->longest = 0.0f;
-    KIRI_EACH_INDEX(i, detail->offsets) {
-        detail->longest = kiriMax(fabsf(detail->offsets.data[i]), detail->longest);
+    KIRI_EACH(const float, offset, detail->offsets) {
+        detail->longest = kiriMax(fabsf(*offset), detail->longest);
     }
 }
 

@@ -128,7 +128,7 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
         kiriSpan was = *at, is = { 0 };
         ResizeSampleWeights(&sorted, memory, &is, was.count); /* there is room */
         memcpy(sorted.weights.data + is.first, skin->weights.data + was.first,
-               sizeof(kiriSampleWeight) * (size_t)was.count);
+               sizeof(kiriSampleWeight) * was.count);
         *at = is;
     }
     kiriArray_Release(memory, &skin->weights);
@@ -280,15 +280,15 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
         return false;
     }
     if (count > 0) {
-        memcpy(refresh->noted.data, mesh->squares.dirty.data, sizeof(int32_t) * (size_t)count);
+        memcpy(refresh->noted.data, mesh->squares.dirty.data, sizeof(int32_t) * count);
     }
     return true;
 }
 
 void kiriRefresh_Drop(kiriRefresh* refresh)
 {
-    KIRI_EACH_WHILE(refresh->change > 0, const int32_t, square, refresh->squares) {
-        refresh->marks.data[*square] = 0;
+    KIRI_EACH_LISTED_WHILE(refresh->change > 0, square, refresh->squares) {
+        refresh->marks.data[square] = 0;
     }
     refresh->noted.count = refresh->change = 0;
 }
@@ -368,8 +368,8 @@ static bool ListJoined(kiriIndices* joined, kiriMemory* memory, const kiriMeshDa
     do {
         int32_t previous = kiriEdge_Previous(h), v = kiriMesh_Tail(mesh, h), at = joined->count;
         bool isKnown = false;
-        KIRI_EACH_INDEX(k, *joined) {
-            isKnown = isKnown || joined->data[k] == v;
+        KIRI_EACH_LISTED(known, *joined) {
+            isKnown = isKnown || known == v;
         }
         ok = isKnown || kiriArray_Push(memory, joined, v);
         for (; ok && !isKnown && at > 0 && joined->data[at - 1] > v; --at) {
@@ -418,8 +418,8 @@ static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSour
         return WeighSample(refresh, source, square, sample) ? &refresh->stencil : NULL;
     }
     mean->frames.count = mean->values.count = 0;
-    KIRI_EACH_WHILE(ok, const int32_t, vertex, refresh->joined) {
-        ok = WeighSample(refresh, source, square, *vertex);
+    KIRI_EACH_LISTED_WHILE(ok, vertex, refresh->joined) {
+        ok = WeighSample(refresh, source, square, vertex);
         KIRI_EACH_INDEX_WHILE(ok, k, refresh->stencil.frames) {
             ok = AddToMean(mean, source->memory, refresh->stencil.frames.data[k],
                            refresh->stencil.values.data[k] / refresh->joined.count);
@@ -442,7 +442,7 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
     kiriSpan* is = &skin->staged.data[skin->staged.count - 1].span;
     kiriSpan was = isVertex && sample < refresh->oldCount ? skin->spans.data[sample] : (kiriSpan){ 0 };
     if (was.count == is->count && memcmp(skin->weights.data + was.first, skin->weights.data + is->first,
-                                         sizeof(kiriSampleWeight) * (size_t)is->count) == 0) {
+                                         sizeof(kiriSampleWeight) * is->count) == 0) {
         DropSpan(skin, is);
         skin->staged.count -= 1;
     }

@@ -239,7 +239,7 @@ static bool CrossTetrahedron(Pieces* p, const SeenCorner* const corner[4], bool 
 
 static bool CrossTriangle(Pieces* p, int32_t triangle)
 {
-    const int32_t* v = &p->surface->indices.data[3 * (size_t)triangle];
+    const int32_t* v = &p->surface->indices.data[3 * triangle];
     int32_t order[3] = { v[0], v[1], v[2] };
     bool isRight = true, beyond[4] = { true, true, true, true };
     KIRI_ASSERT(triangle >= 0 && triangle < p->surface->triangleCount);

@@ -365,7 +365,7 @@ static inline int GetPairSlopes(const kiriCorners* corners, int32_t pair, const 
 
 void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners)
 {
-    memset(slopes, 0, 4 * sizeof(float) * (size_t)vertexCount);
+    memset(slopes, 0, 4 * sizeof(float) * vertexCount);
     for (int32_t pair = 0; 2 * pair < corners->triangleCount; ++pair) {
         PairSlope of[6];
         int count = GetPairSlopes(corners, pair, positions, of);
@@ -399,7 +399,7 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
             if (count == MOST_PAIRS) {
                 return false;
             }
-            memmove(pairs + at + 1, pairs + at, sizeof(*pairs) * (size_t)(count - at));
+            memmove(pairs + at + 1, pairs + at, sizeof(*pairs) * (count - at));
             pairs[at] = pair;
             ++count;
         }
@@ -453,8 +453,8 @@ void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32
     }
     float last[16] = { 0.0f }, written[12];
     if (v < end) {
-        memcpy(last, slopes + 4 * v, 4 * sizeof(float) * (size_t)(end - v));
+        memcpy(last, slopes + 4 * v, 4 * sizeof(float) * (end - v));
         WriteFourNormals(written, last);
-        memcpy(normals + 3 * v, written, 3 * sizeof(float) * (size_t)(end - v));
+        memcpy(normals + 3 * v, written, 3 * sizeof(float) * (end - v));
     }
 }

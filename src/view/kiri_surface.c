@@ -24,7 +24,7 @@ void kiriFades_Start(kiriFades* fades)
     int32_t count = fades->fading.count;
     fades->older = fades->fading.capacity - count;
     if (count > 0) {
-        memmove(data + fades->older, data, sizeof(*data) * (size_t)count);
+        memmove(data + fades->older, data, sizeof(*data) * count);
     }
     fades->fading.count = 0;
 }
@@ -86,7 +86,7 @@ static void AddSolidVertex(SolidArrays* to, const kiriSurface* surface, int32_t 
 static void AddSolidTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
 {
     const int32_t corners[3] = { a, b, c };
-    memcpy(&to->indices[3 * (int64_t)to->triangleCount++], corners, sizeof(corners));
+    memcpy(&to->indices[3 * to->triangleCount++], corners, sizeof(corners));
 }
 
 /* Adds the rim along an edge. It shares no vertices, so that it is flat and its edges are sharp. */
@@ -171,7 +171,7 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
        shall not be the first to touch all of them. */
     if (3 * vertices > surface->places.count) {
         memset(surface->places.data + surface->places.count, 0,
-               sizeof(float) * (size_t)(3 * vertices - surface->places.count));
+               sizeof(float) * (3 * vertices - surface->places.count));
     }
     surface->positions.count = surface->places.count = surface->normals.count = 3 * vertices;
     surface->restPositions.count = 2 * vertices;
@@ -197,7 +197,7 @@ static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isHeld)
     }
     if (isOn != wasOn) {
         if (isOn && !kiriSurface_IsFar(surface) && surface->vertexCount > 0) {
-            memcpy(surface->places.data, surface->positions.data, sizeof(float) * (size_t)surface->positions.count);
+            memcpy(surface->places.data, surface->positions.data, sizeof(float) * surface->positions.count);
         }
         kiriDetail_Draw(&surface->detail, surface->places.data, 0, isOn ? surface->vertexCount : 0);
     }
@@ -228,7 +228,7 @@ void kiriSurface_Remember(kiriSurface* surface)
     KIRI_ASSERT(3 * surface->vertexCount <= surface->before.capacity);
     surface->before.count = 3 * surface->vertexCount;
     surface->middleBefore = surface->middle;
-    memcpy(surface->before.data, kiriSurface_Places(surface), sizeof(float) * (size_t)surface->before.count);
+    memcpy(surface->before.data, kiriSurface_Places(surface), sizeof(float) * surface->before.count);
 }
 
 /* ---- Topology ---------------------------------------------------------------------------------------------------- */
@@ -237,13 +237,13 @@ static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t 
 {
     KIRI_ASSERT_HAS(surface->sourceTriangles, v);
     surface->sourceTriangles.data[v] = mesh->vertices.data[v].source;
-    kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * (size_t)v]);
+    kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * v]);
 }
 
 static void WriteTurn(kiriSurface* surface, int32_t pair)
 {
     KIRI_ASSERT_HAS(surface->turns, pair);
-    const int32_t* indices = &surface->indices.data[6 * (size_t)pair];
+    const int32_t* indices = &surface->indices.data[6 * pair];
     surface->turns.data[pair] = kiriNormals_TurnOf(indices, 2 * pair + 1 == surface->triangleCount);
 }
 
@@ -264,8 +264,7 @@ static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_
 /* The journal has more triangles than change: those with another neighbour. */
 static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, kiriChange* change)
 {
-    KIRI_EACH(const int32_t, changed, mesh->changedTriangles) {
-        int32_t t = *changed;
+    KIRI_EACH_LISTED(t, mesh->changedTriangles) {
         const int32_t* vertex = mesh->triangles.data[t].vertex;
         if (t < change->oldTriangleCount &&
             memcmp(vertex, kiriSurface_Triangle(surface, t), 3 * sizeof(int32_t)) != 0) {
@@ -274,9 +273,9 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
         }
     }
     /* When all of them are written: two that share an edge may both change. */
-    KIRI_EACH(const int32_t, changed, mesh->changedTriangles) {
-        if (*changed < change->oldTriangleCount) {
-            WriteTurn(surface, *changed / 2);
+    KIRI_EACH_LISTED(changed, mesh->changedTriangles) {
+        if (changed < change->oldTriangleCount) {
+            WriteTurn(surface, changed / 2);
         }
     }
 }
@@ -290,8 +289,8 @@ void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t 
     KIRI_FROM_TO(v, firstVertex, surface->vertexCount) {
         kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
         surface->rest.data[v] = local;
-        surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
-        surface->restPositions.data[2 * (size_t)v + 1] = (float)rest.y;
+        surface->restPositions.data[2 * v] = (float)rest.x;
+        surface->restPositions.data[2 * v + 1] = (float)rest.y;
         WriteSource(surface, mesh, v);
     }
     KIRI_FROM_TO(t, firstTriangle, surface->triangleCount) {
@@ -315,8 +314,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     surface->triangleCount = mesh->triangles.count;
     kiriSurface_Derive(surface, mesh, change.oldVertexCount, change.oldTriangleCount);
     /* Vertices never move in the rest plane, but a tear may give one to another triangle of the caller. */
-    KIRI_EACH(const int32_t, changed, mesh->changedVertices) {
-        int32_t v = *changed;
+    KIRI_EACH_LISTED(v, mesh->changedVertices) {
         if (v < change.oldVertexCount && mesh->vertices.data[v].source != surface->sourceTriangles.data[v]) {
             WriteSource(surface, mesh, v);
             Extend(&change.vertices, v);
@@ -456,8 +454,8 @@ void kiriSurface_CopyVertices(const kiriSurface* surface, int32_t first, int32_t
                               int32_t positionStride, void* normals, int32_t normalStride)
 {
     if (count > 0) {
-        CopyStrided(surface->positions.data + 3 * (int64_t)first, count, positions, positionStride);
-        CopyStrided(surface->normals.data + 3 * (int64_t)first, count, normals, normalStride);
+        CopyStrided(surface->positions.data + 3 * first, count, positions, positionStride);
+        CopyStrided(surface->normals.data + 3 * first, count, normals, normalStride);
     }
 }
 
@@ -467,7 +465,7 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
         return false;
     }
     for (int64_t i = 0; i < 3 * (int64_t)count; ++i) {
-        indices[i] = (uint16_t)surface->indices.data[3 * (int64_t)firstTriangle + i];
+        indices[i] = (uint16_t)surface->indices.data[3 * firstTriangle + i];
     }
     return true;
 }

@@ -196,7 +196,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
 /* Returns the three vertices of a triangle. */
 static inline int32_t* kiriSurface_Triangle(const kiriSurface* surface, int32_t triangle)
 {
-    return &surface->indices.data[3 * (int64_t)triangle];
+    return &surface->indices.data[3 * triangle];
 }
 
 /* Hides a triangle: sets its corners to the first. */

@@ -191,9 +191,9 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
         return KIRI_ERROR_MEMORY;
     }
     double snap = sheet->settings.snap * sheet->mesh.step;
-    KIRI_EACH_INDEX(i, section.lines) {
+    KIRI_EACH(const kiriSectionLine, line, section.lines) {
         if (!kiriArray_Push(scratch, &starts, ways.count) ||
-            !kiriSection_Path(&section, &section.lines.data[i], false, 0.25 * snap, scratch, &ways)) {
+            !kiriSection_Path(&section, line, false, 0.25 * snap, scratch, &ways)) {
             return KIRI_ERROR_MEMORY;
         }
     }
@@ -648,14 +648,13 @@ static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
 {
     const kiriMat3 axes = KIRI_AXES;
     bool fits = true;
-    KIRI_EACH_INDEX_WHILE(fits, i, world->sheets) {
-        fits = FitsCarried(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));
+    KIRI_EACH_OF_WHILE(fits, kiriSheetData, sheet, world->sheets) {
+        fits = FitsCarried(sheet, &axes, kiriVec3_Scale(-1.0, origin));
     }
-    KIRI_EACH_INDEX_WHILE(fits, i, world->obstacles) {
-        fits = kiriVec3_FitsFloats(kiriVec3_Sub(world->obstacles.data[i]->position, origin));
+    KIRI_EACH_OF_WHILE(fits, kiriObstacleData, obstacle, world->obstacles) {
+        fits = kiriVec3_FitsFloats(kiriVec3_Sub(obstacle->position, origin));
     }
-    KIRI_EACH_INDEX_WHILE(fits, i, world->blades) {
-        const kiriBladeData* blade = world->blades.data[i];
+    KIRI_EACH_OF_WHILE(fits, kiriBladeData, blade, world->blades) {
         fits = kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[0], origin)) &&
                kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[1], origin));
     }

@@ -325,8 +325,7 @@ kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw
     KIRI_EACH_INDEX_WHILE(only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0, i, world->obstacles) {
         DrawObstacle(&drawing, world->obstacles.data[i]);
     }
-    KIRI_EACH_INDEX_WHILE(only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0, i, world->blades) {
-        const kiriBladeData* blade = world->blades.data[i];
+    KIRI_EACH_OF_WHILE(only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0, kiriBladeData, blade, world->blades) {
         if (blade->isPlaced) {
             DrawLine(&drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));
         }

@@ -54,8 +54,8 @@ int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet)
 static void ListClusters(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    KIRI_EACH(const int32_t, at, world->active) {
-        islands->next.data[*at] = KIRI_NONE;
+    KIRI_EACH_LISTED(at, world->active) {
+        islands->next.data[at] = KIRI_NONE;
     }
     KIRI_EACH_INDEX_BACK(k, world->active) {
         int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
@@ -73,8 +73,7 @@ static int32_t BeginClusters(kiriWorld* world, double dt)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = 0;
-    KIRI_EACH(const int32_t, at, world->active) {
-        int32_t i = *at;
+    KIRI_EACH_LISTED(i, world->active) {
         if (islands->isJoined.data[i]) {
             kiriSheetData* sheet = world->sheets.data[i];
             kiriMotion_Begin(sheet, world->gravity, dt, NULL, &islands->systems.data[i]);
@@ -95,8 +94,7 @@ static int32_t NumberOfBody(const kiriIslands* islands, const kiriSheetData* she
 static void JoinRows(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    KIRI_EACH_INDEX(i, world->pairs.touches) {
-        const kiriPairTouch* touch = &world->pairs.touches.data[i];
+    KIRI_EACH(const kiriPairTouch, touch, world->pairs.touches) {
         kiriSheetData *upper = touch->upper.sheet, *lower = touch->lower.sheet;
         if (touch->touch == KIRI_NONE || upper->rest.asleep) {
             continue;
@@ -181,8 +179,7 @@ static int32_t ListIslands(kiriWorld* world)
         bodies += islands->islands.data[n].bodies.count;
         islands->islands.data[n].bodies.count = islands->islands.data[n].iterations = 0;
     }
-    KIRI_EACH(const int32_t, at, world->active) {
-        int32_t i = *at;
+    KIRI_EACH_LISTED(i, world->active) {
         kiriSheetData* sheet = world->sheets.data[i];
         KIRI_EACH_INDEX_WHILE(islands->isJoined.data[i], p, sheet->layout.pieces) {
             int32_t number = islands->numbers.data[islands->firstBodies.data[i] + p];
@@ -279,15 +276,15 @@ static int64_t WorkAt(const kiriWorld* world, int32_t i, int32_t piece)
 static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t most, int64_t* work)
 {
     kiriIslands* islands = &world->islands;
-    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+    KIRI_EACH_OF_CLUSTER(i, islands, cluster) {
         kiriSheetData* sheet = world->sheets.data[i];
         int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = kiriMotion_Iterations(sheet);
-        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, sheet->solver->moved.bodies) {
-            kiriIsland* island = IslandOf(islands, i, *at);
+        KIRI_EACH_LISTED_WHILE(!sheet->rest.asleep, body, sheet->solver->moved.bodies) {
+            kiriIsland* island = IslandOf(islands, i, body);
             int32_t solved = 0;
             if (island == NULL) {
-                solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], *at, dt, iterations, systems);
-            } else if (IsFirst(islands, island, sheet, *at)) {
+                solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], body, dt, iterations, systems);
+            } else if (IsFirst(islands, island, sheet, body)) {
                 solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix,
                                                &islands->bodies.data[island->bodies.first], island->bodies.count,
                                                island->stitches, dt, island->iterations, systems);
@@ -296,7 +293,7 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
                 return false;
             }
             KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
-            int64_t each = WorkAt(world, i, *at);
+            int64_t each = WorkAt(world, i, body);
             KIRI_TIMES(k, solved) {
                 work[k] += each;
             }
@@ -310,10 +307,10 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
 {
     const kiriIslands* islands = &world->islands;
     int64_t work = 0;
-    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+    KIRI_EACH_OF_CLUSTER(i, islands, cluster) {
         kiriSheetData* sheet = world->sheets.data[i];
-        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, sheet->solver->moved.bodies) {
-            work += WorkAt(world, i, *at);
+        KIRI_EACH_LISTED_WHILE(!sheet->rest.asleep, body, sheet->solver->moved.bodies) {
+            work += WorkAt(world, i, body);
         }
     }
     return kiriSolver_ItemsOf(work);
@@ -332,7 +329,7 @@ static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, i
     substeps = left < substeps ? (int32_t)left : substeps;
     KIRI_TIMES(s, substeps) {
         int64_t work[KIRI_MOST_ROUNDS] = { 0 };
-        for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+        KIRI_EACH_OF_CLUSTER(i, islands, cluster) {
             if (!world->sheets.data[i]->rest.asleep) {
                 kiriFollow_Step(world->sheets.data[i], s, substeps, dt / substeps);
             }
@@ -354,7 +351,7 @@ void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t subs
 {
     const kiriIslands* islands = &world->islands;
     kiriProgress progress = TakeSubsteps(world, cluster, dt, substeps, systems);
-    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+    KIRI_EACH_OF_CLUSTER(i, islands, cluster) {
         kiriSheetData* sheet = world->sheets.data[i];
         kiriProgress* own = &world->moves.of.data[i].progress;
         *own = sheet->rest.asleep ? KIRI_DONE : progress;

@@ -19,6 +19,10 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt);
 /* Returns the cluster of a sheet: the index of its first sheet; KIRI_NONE: no mutual contact. */
 int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet);
 
+/* Loops over the sheets of a cluster from one of them on; a sheet alone is its own. */
+#define KIRI_EACH_OF_CLUSTER(i, islands, first)                                                                        \
+    for (int32_t i = (first); i != KIRI_NONE; i = (islands)->next.data[i])
+
 /* Returns an upper bound of the items that a tick of a cluster takes. */
 int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t substeps);
 

@@ -45,8 +45,8 @@ static void WakeEnds(const kiriWorld* world, const kiriStitchData* stitch)
             int32_t piece = sheet->layout.framePiece.data[slot->index];
             kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
             kiriSheet_WakePiece(sheet, piece);
-            KIRI_EACH(const int32_t, frame, frames) {
-                memset(&sheet->frames.data[*frame].history, 0, sizeof(kiriHistory));
+            KIRI_EACH_LISTED(frame, frames) {
+                memset(&sheet->frames.data[frame].history, 0, sizeof(kiriHistory));
             }
         }
     }
@@ -108,7 +108,7 @@ static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch
     KIRI_ASSERT(count >= 0 && count <= KIRI_STITCH_SIDE);
     kiriVec2 point = kiriMesh_Local(&sheet->mesh, stitch->at[end]), rest = point;
     if (bends) {
-        Straighten(sheet, point, kiriVec2_Make(-stitch->inward[end].y, stitch->inward[end].x), weights, count);
+        Straighten(sheet, point, kiriVec2_Left(stitch->inward[end]), weights, count);
     }
     KIRI_TIMES(n, count) {
         rest = kiriVec2_AddScaled(rest, -weights[n].value, sheet->frames.data[weights[n].frame].center);
@@ -233,7 +233,7 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
         isFound = FollowEnd(sheet, stitch, end);
     }
     if (isFound) { /* to the left of the line, if there is material */
-        kiriVec2 left = kiriVec2_Scale(length > 0.0 ? 1.0 / length : 0.0, kiriVec2_Make(-way.y, way.x));
+        kiriVec2 left = kiriVec2_Scale(length > 0.0 ? 1.0 / length : 0.0, kiriVec2_Left(way));
         double far = 0.25 * sheet->mesh.squares.side;
         kiriLatticePoint beside = stitch->at[end];
         beside.x += (int32_t)(far * left.x);
@@ -682,13 +682,6 @@ static Knot NextKnot(const kiriSeamData* seam, const Stretch* stretch, int32_t* 
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
-static double PartOnWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
-{
-    kiriVec2 way = kiriVec2_Sub(b, a);
-    double square = kiriVec2_Dot(way, way);
-    return square > 0.0 ? kiriClamp(kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square, 0.0, 1.0) : 0.0;
-}
-
 /* Adds a node in the order of the line, with a vertex of a lip, unless it is there. KIRI_NONE: none. */
 static void AddWeldNode(kiriWeld* weld, const Stretch* stretch, int32_t first, double part, int end, int32_t vertex)
 {
@@ -723,13 +716,13 @@ static void AddLipVertices(kiriWeld* weld, const Stretch* stretch, int32_t first
     const kiriMeshData* mesh = &sheet->mesh;
     kiriVec2 from = kiriMesh_Local(mesh, a.at[end]), to = kiriMesh_Local(mesh, b.at[end]);
     kiriNearby nearby = kiriNearby_Begin(&mesh->squares, a.at[end], b.at[end], ON_SEAM);
-    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+    KIRI_EACH_NEARBY(t, nearby) {
         KIRI_EACH_CORNER(k) {
             int32_t v = mesh->triangles.data[t].vertex[k];
             kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             if (kiriVec2_DistanceToWay(p, from, to) < ON_SEAM * mesh->step &&
                 kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
-                AddWeldNode(weld, stretch, first, a.part + (b.part - a.part) * PartOnWay(p, from, to), end, v);
+                AddWeldNode(weld, stretch, first, a.part + (b.part - a.part) * kiriVec2_PartOnWay(p, from, to), end, v);
             }
         }
     }
@@ -827,13 +820,13 @@ static void TakeNear(kiriWeldNear* near, const kiriWeld* weld, const Stretch* st
     const kiriMeshData* mesh = &sheet->mesh;
     kiriVec2 from = kiriMesh_Local(mesh, a.at[end]), to = kiriMesh_Local(mesh, b.at[end]);
     kiriNearby nearby = kiriNearby_Begin(&mesh->squares, a.at[end], b.at[end], reach / mesh->step);
-    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+    KIRI_EACH_NEARBY(t, nearby) {
         KIRI_EACH_CORNER(k) {
             int32_t v = mesh->triangles.data[t].vertex[k];
             kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
             float distance = (float)(kiriVec2_DistanceToWay(p, from, to) / reach);
             if (distance < near[v].distance && kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
-                double part = a.part + (b.part - a.part) * PartOnWay(p, from, to);
+                double part = a.part + (b.part - a.part) * kiriVec2_PartOnWay(p, from, to);
                 int32_t n = first;
                 KIRI_ASSERT_HAS(weld->nodes, first);
                 while (n + 1 < weld->nodes.count && weld->nodes.data[n + 1].part > weld->nodes.data[n].part &&
@@ -972,8 +965,8 @@ bool kiriWeld_Make(kiriWorld* world, kiriSeamData* seam)
 bool kiriWelds_Reserve(kiriWorld* world)
 {
     bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, i, world->seams) {
-        ok = ReserveWeld(world, world->seams.data[i]);
+    KIRI_EACH_OF_WHILE(ok, kiriSeamData, seam, world->seams) {
+        ok = ReserveWeld(world, seam);
     }
     return ok;
 }
@@ -1027,7 +1020,7 @@ static void MeasureWeldNode(kiriWeldNode* node)
 static void MoveOffset(const kiriSheetData* sheet, int32_t vertex, kiriVec3 by)
 {
     KIRI_ASSERT(vertex >= 0 && 3 * vertex < sheet->seen.surface.detail.offsets.count);
-    float* offset = sheet->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)vertex;
+    float* offset = sheet->seen.surface.detail.offsets.data + 3 * vertex;
     kiriVec3_Store(offset, kiriVec3_Add(kiriVec3_Load(offset), by));
 }
 

@@ -204,8 +204,8 @@ static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
     KIRI_EACH_INDEX_WHILE(ok, p, sheet->pins) {
         ok = kiriPool_Claim(&world->pinIds, sheet->pins.data[p].id, sheet, p);
     }
-    KIRI_EACH_INDEX_WHILE(ok, c, sheet->cuts) {
-        ok = kiriPool_Claim(&world->cutIds, sheet->cuts.data[c]->id, sheet->cuts.data[c], 0);
+    KIRI_EACH_OF_WHILE(ok, kiriCutData, cut, sheet->cuts) {
+        ok = kiriPool_Claim(&world->cutIds, cut->id, cut, 0);
     }
     return ok;
 }
@@ -214,17 +214,17 @@ static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
 static bool ClaimIds(kiriWorld* world)
 {
     bool ok = true;
-    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
-        ok = ok && kiriPool_Claim(&world->obstacleIds, obstacle->id, obstacle, 0);
+    KIRI_EACH_OF_WHILE(ok, kiriObstacleData, obstacle, world->obstacles) {
+        ok = kiriPool_Claim(&world->obstacleIds, obstacle->id, obstacle, 0);
     }
-    KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
-        ok = ok && kiriPool_Claim(&world->bladeIds, blade->id, blade, 0);
+    KIRI_EACH_OF_WHILE(ok, kiriBladeData, blade, world->blades) {
+        ok = kiriPool_Claim(&world->bladeIds, blade->id, blade, 0);
     }
-    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
-        ok = ok && kiriPool_Claim(&world->seamIds, seam->id, seam, 0);
+    KIRI_EACH_OF_WHILE(ok, kiriSeamData, seam, world->seams) {
+        ok = kiriPool_Claim(&world->seamIds, seam->id, seam, 0);
     }
-    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
-        ok = ok && ClaimIdsOfSheet(world, sheet);
+    KIRI_EACH_OF_WHILE(ok, kiriSheetData, sheet, world->sheets) {
+        ok = ClaimIdsOfSheet(world, sheet);
     }
     return ok;
 }
@@ -383,20 +383,20 @@ static void FinishSave(kiriArchive* archive, kiriWorld* made)
                   (KIRI_POOLS(CHECK_POOL) made->active.capacity >= made->sheets.count &&
                    made->atWork.capacity >= made->sheets.count && made->newEvents <= made->events.count);
     kiriArchive_Expect(archive, isFine);
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->sheets) {
-        kiriArchive_Expect(archive, IsSheet(made, made->sheets.data[i]));
+    KIRI_EACH_OF_WHILE(!kiriArchive_HasFailed(archive), kiriSheetData, sheet, made->sheets) {
+        kiriArchive_Expect(archive, IsSheet(made, sheet));
         if (!kiriArchive_HasFailed(archive)) {
-            kiriSheet_Derive(made->sheets.data[i], archive);
+            kiriSheet_Derive(sheet, archive);
         }
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->blades) {
-        KIRI_EACH(const kiriLayer, layer, made->blades.data[i]->layers) {
+    KIRI_EACH_OF_WHILE(!kiriArchive_HasFailed(archive), kiriBladeData, blade, made->blades) {
+        KIRI_EACH(const kiriLayer, layer, blade->layers) {
             const kiriSlot* cut = kiriPool_Find(&made->cutIds, layer->cut);
             kiriArchive_Expect(archive, cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet);
         }
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->seams) {
-        kiriArchive_Expect(archive, IsSeam(made, made->seams.data[i]));
+    KIRI_EACH_OF_WHILE(!kiriArchive_HasFailed(archive), kiriSeamData, seam, made->seams) {
+        kiriArchive_Expect(archive, IsSeam(made, seam));
     }
 }
 
@@ -411,11 +411,11 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     if (!isWhole) {
         FinishSave(&archive, made);
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(&archive), i, made->sheets) {
-        archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i], isWhole);
+    KIRI_EACH_OF_WHILE(!kiriArchive_HasFailed(&archive), kiriSheetData, sheet, made->sheets) {
+        archive.isShort |= !kiriSheet_EndReading(sheet, isWhole);
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(&archive), i, made->seams) {
-        archive.isShort |= !kiriWeld_Make(made, made->seams.data[i]);
+    KIRI_EACH_OF_WHILE(!kiriArchive_HasFailed(&archive), kiriSeamData, seam, made->seams) {
+        archive.isShort |= !kiriWeld_Make(made, seam);
     }
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;
 }

@@ -114,8 +114,8 @@ static kiriResult UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
     kiriResult result = KIRI_OK;
-    KIRI_EACH(const int32_t, at, world->atWork) {
-        kiriSheetData* sheet = world->sheets.data[*at];
+    KIRI_EACH_LISTED(i, world->atWork) {
+        kiriSheetData* sheet = world->sheets.data[i];
         if (kiriPipeline_CanRun(sheet, quotas) && kiriPipeline_Run(sheet, quotas, &watch) == KIRI_FAILED) {
             result = KIRI_ERROR_MEMORY;
         }
@@ -233,8 +233,8 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
 /* Commits the changes of this tick to meshes. */
 static void CommitMeshes(kiriWorld* world)
 {
-    KIRI_EACH(const int32_t, at, world->atWork) {
-        kiriSheetData* sheet = world->sheets.data[*at];
+    KIRI_EACH_LISTED(i, world->atWork) {
+        kiriSheetData* sheet = world->sheets.data[i];
         int32_t known = sheet->seen.surface.vertexCount;
         if (sheet->mesh.vertices.count > known) {
             kiriPast_Grow(&sheet->past, world->begun, &sheet->pastRoom, &sheet->mesh, known);
@@ -481,7 +481,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     /* Drops the events of the last tick. Keeps those that refused ticks have added since. */
     if (world->newEvents > 0) {
         memmove(world->events.data, world->events.data + world->events.count - world->newEvents,
-                sizeof(kiriEvent) * (size_t)world->newEvents);
+                sizeof(kiriEvent) * world->newEvents);
     }
     world->events.count = world->newEvents;
     world->newEvents = 0;
@@ -515,8 +515,8 @@ kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
         sheet->seen.surface.before.count = 0; /* no tick leads here from these places */
     }
     WakeStirred(world);
-    KIRI_EACH(const int32_t, at, world->active) {
-        world->moves.of.data[*at].progress = KIRI_DONE;
+    KIRI_EACH_LISTED(i, world->active) {
+        world->moves.of.data[i].progress = KIRI_DONE;
     }
     SkinAll(world, 0.0);
     EnterStage(world, KIRI_NONE);
