@@ -141,8 +141,8 @@ static bool TouchMixed(const kiriMeeting* meeting, const int32_t* v, const doubl
 
 static bool IsBorderEdge(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b)
 {
-    KIRI_EACH(const int32_t, triangle, *near) {
-        const int32_t* v = kiriSurface_Triangle(surface, *triangle);
+    KIRI_EACH_LISTED(triangle, *near) {
+        const int32_t* v = kiriSurface_Triangle(surface, triangle);
         if ((v[0] == b && v[1] == a) || (v[1] == b && v[2] == a) || (v[2] == b && v[0] == a)) {
             return false;
         }
@@ -197,18 +197,13 @@ static int32_t PatchOf(const kiriMeeting* meeting, int32_t vertex)
     return row / meeting->squares * meeting->columns + column / meeting->squares;
 }
 
-static bool IsSamePlace(const kiriNearVertex* a, const kiriNearVertex* b)
-{
-    return a->frame == b->frame && kiriVec3_Dot(a->normal, b->normal) > SAME_FACE;
-}
-
 /* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
 static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
 {
     int32_t* link = &search->heads.data[near.patch];
     while (*link != KIRI_NONE) {
         kiriNearVertex* chosen = &search->chosen.data[*link];
-        if (IsSamePlace(chosen, &near)) {
+        if (chosen->frame == near.frame && kiriVec3_Dot(chosen->normal, near.normal) > SAME_FACE) {
             if (near.height < chosen->height - margin) {
                 near.next = chosen->next;
                 *chosen = near;
@@ -219,13 +214,6 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margi
     }
     *link = search->chosen.count;
     KIRI_NEXT(search->chosen) = near;
-}
-
-/* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
-static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
-{
-    bool pushed = height <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
-    return pushed ? PREFERRED * meeting->gap : 0.0;
 }
 
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
@@ -242,7 +230,9 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
             .vertex = vertex, .height = nearest.distance
         };
     } else if (nearest.distance < meeting->reach) {
-        double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
+        /* One that had a force counts as deeper, so that vertices of similar depth do not alternate. */
+        bool pushed = nearest.distance <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
+        double height = nearest.distance - (pushed ? PREFERRED * meeting->gap : 0.0);
         kiriNearVertex near = { vertex,
                                 PatchOf(meeting, vertex),
                                 kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
@@ -264,9 +254,9 @@ static void CollectVertices(const kiriMeeting* meeting)
     int32_t low = INT32_MAX, high = -1;
     search->mark += 2;
     search->vertices.count = 0;
-    KIRI_EACH(const int32_t, triangle, search->triangles) {
+    KIRI_EACH_LISTED(triangle, search->triangles) {
         KIRI_EACH_CORNER(k) {
-            int32_t vertex = indices[3 * (int64_t)*triangle + k];
+            int32_t vertex = indices[3 * triangle + k];
             if (search->marks.data[vertex] != search->mark) {
                 search->marks.data[vertex] = search->mark;
                 KIRI_NEXT(search->vertices) = vertex;
@@ -307,8 +297,8 @@ static void ChooseVertices(const kiriMeeting* meeting)
     CollectVertices(meeting);
     MarkPushed(meeting, &meeting->sheet->touches.last);
     MarkPushed(meeting, &meeting->sheet->touches.slept);
-    KIRI_EACH(const int32_t, vertex, search->vertices) {
-        LookAtVertex(meeting, *vertex);
+    KIRI_EACH_LISTED(vertex, search->vertices) {
+        LookAtVertex(meeting, vertex);
     }
     KIRI_EACH_WHILE(meeting->isThinned, const kiriNearVertex, chosen, search->chosen) {
         search->heads.data[chosen->patch] = KIRI_NONE;
@@ -459,16 +449,16 @@ static bool CollectCoarse(const kiriMeeting* meeting)
     kiriObstacleSearch* search = meeting->search;
     bool ok = true;
     search->crossed.count = 0;
-    KIRI_EACH_WHILE(ok, const int32_t, at, search->triangles) {
+    KIRI_EACH_LISTED_WHILE(ok, triangle, search->triangles) {
         kiriVec3 x[3];
         double longest = 0.0;
-        GetCorners(meeting, *at, x);
+        GetCorners(meeting, triangle, x);
         KIRI_EACH_CORNER(k) {
             double length = kiriVec3_Distance(x[(k + 1) % 3], x[k]);
             longest = kiriMax(length, longest);
         }
         bool isCoarse = longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
-        ok = !isCoarse || kiriArray_Push(search->memory, &search->crossed, *at);
+        ok = !isCoarse || kiriArray_Push(search->memory, &search->crossed, triangle);
     }
     if (search->crossed.count > 0) {
         kiriSort(search->crossed.data, search->crossed.count, NULL, NULL);
@@ -483,10 +473,10 @@ static bool TouchRounds(const kiriMeeting* meeting)
         return true;
     }
     bool ok = CollectCoarse(meeting);
-    KIRI_EACH_WHILE(ok, const int32_t, triangle, *coarse) {
+    KIRI_EACH_LISTED_WHILE(ok, triangle, *coarse) {
         kiriTouch touch;
-        if (TouchRound(meeting, *triangle, &touch)) {
-            touch.key = MakeKey(meeting, true, ROUND_ITEM | (uint32_t)*triangle);
+        if (TouchRound(meeting, triangle, &touch)) {
+            touch.key = MakeKey(meeting, true, ROUND_ITEM | (uint32_t)triangle);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }
@@ -503,13 +493,6 @@ typedef struct EdgePoint {
     double below, above; /* m: search range along `out` */
     uint32_t item;
 } EdgePoint;
-
-/* Intersects the line of the point with a triangle. Returns false if it misses. */
-static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
-{
-    return kiriTriangle_Cross(x, point->at, point->out, height, share) && *height > -point->below &&
-           *height < point->above;
-}
 
 /* Returns true if the normal can be of a tangent plane at the edge: it opposes none of the faces. */
 static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
@@ -530,7 +513,8 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriVec3 x[3];
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
     kiriSurface_Corners(surface, triangle, x);
-    if (!MeetsTriangle(x, point, &height, share)) {
+    if (!kiriTriangle_Cross(x, point->at, point->out, &height, share) || !(height > -point->below) ||
+        !(height < point->above)) {
         return false;
     }
     kiriVec3 at = kiriVec3_AddScaled(point->at, height, point->out);
@@ -549,42 +533,19 @@ static bool MeetsLine(const void* context, const kiriBox* box)
     return kiriBox_Clip(box, LINE_SLACK, point->at, point->out, &from, &to);
 }
 
-/* Lists the triangles that the line of the point meets, ascending, so that layers get the same keys in each tick. */
-static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
-{
-    const kiriSurface* surface = &meeting->sheet->seen.surface;
-    kiriIndices* crossed = &meeting->search->crossed;
-    int32_t kept = 0;
-    crossed->count = 0;
-    if (!kiriBounds_FindMoving(meeting->sheet->seen.bounds, surface, MeetsLine, point, false, 0,
-                               meeting->search->memory, crossed)) {
-        return false;
-    }
-    KIRI_EACH(const int32_t, triangle, *crossed) {
-        kiriVec3 x[3];
-        double height, share[3];
-        kiriSurface_Corners(surface, *triangle, x);
-        if (MeetsTriangle(x, point, &height, share)) {
-            crossed->data[kept++] = *triangle;
-        }
-    }
-    crossed->count = kept;
-    if (kept > 1) {
-        kiriSort(crossed->data, kept, NULL, NULL);
-    }
-    return true;
-}
-
-/* Adds a touch for each layer over a point, up to MOST_LAYERS. */
+/* Adds a touch for each layer over a point, up to MOST_LAYERS. Triangles ascend, so that layers get the same keys in each
+   tick. */
 static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
 {
     enum { MOST_LAYERS = 4 };
-    const kiriIndices* crossed = &meeting->search->crossed;
-    bool ok = FindCrossed(meeting, point);
+    kiriObstacleSearch* search = meeting->search;
     uint32_t layers = 0;
-    KIRI_EACH_WHILE(ok&& layers < MOST_LAYERS, const int32_t, triangle, *crossed) {
+    search->crossed.count = 0;
+    bool ok = kiriBounds_Find(meeting->sheet->seen.bounds, &meeting->sheet->seen.surface, MeetsLine, point,
+                              search->memory, &search->crossed);
+    KIRI_EACH_LISTED_WHILE(ok && layers < MOST_LAYERS, triangle, search->crossed) {
         kiriTouch touch;
-        if (TouchTriangle(meeting, point, *triangle, &touch)) {
+        if (TouchTriangle(meeting, point, triangle, &touch)) {
             touch.key = MakeKey(meeting, true, point->item * MOST_LAYERS + layers++);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
@@ -847,13 +808,6 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
     return true;
 }
 
-/* Returns an upper bound of the obstacle's speed within the sheet's box. */
-static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
-{
-    return kiriVec3_Length(obstacle->velocity) +
-           kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(box, obstacle->position);
-}
-
 #define ORDINARY 100.0 /* m/s^2: acceleration by a sheet's own weight and tension, where it lies on what cannot move */
 
 /* Returns how far the forces of the last tick could move the frames that bear them in this tick, m. A heavy obstacle
@@ -893,7 +847,9 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     meeting.squares = PatchSide(sheet, meeting.square);
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
     meeting.near = (1.0 + NEARBY) * meeting.gap + WayUnderLoad(sheet, obstacle, search->dt);
-    meeting.reach = kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + meeting.near;
+    double turns = kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(&box, obstacle->position);
+    speed += kiriVec3_Length(obstacle->velocity) + turns; /* at most: of the obstacle within the sheet's box */
+    meeting.reach = kiriReach_Of(speed, search->gravity, search->dt) + meeting.near;
     if (sheet->settings.mechanics.planar) {
         meeting.across = kiriObstacle_ToLocal(obstacle, sheet->settings.mechanics.axes.d);
     }
@@ -948,8 +904,8 @@ static kiriBox BoxOfDetail(const kiriSurface* surface)
 {
     const kiriDetail* detail = &surface->detail;
     kiriBox box = KIRI_EMPTY_BOX;
-    KIRI_EACH_INDEX(k, detail->vertices) {
-        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * detail->vertices.data[k].vertex));
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * item->vertex));
     }
     box.lower = kiriVec3_Add(box.lower, surface->middle);
     box.upper = kiriVec3_Add(box.upper, surface->middle);
@@ -997,8 +953,8 @@ static void FlattenDetail(kiriSheetData* sheet)
     }
     KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
         if (item->leash >= 0.0f && item->vertex < marks->count && (marks->data[item->vertex] & KIRI_FOLD_FLAT) != 0) {
-            float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
-            const float* skin = kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex;
+            float* moving = surface->detail.moving.data + 4 * item->vertex;
+            const float* skin = kiriSurface_Places(surface) + 3 * item->vertex;
             KIRI_TIMES(k, 3) {
                 moving[k] = skin[k] + LEFT_IN_FOLDS * (moving[k] - skin[k]);
             }
