@@ -38,8 +38,8 @@ void kiriField_Reset(kiriField* field)
     KIRI_ASSERT(field->stage == REPAIR_NONE);
     KIRI_FROM_TO(k, -1, KIRI_RING) {
         kiriIndices* list = k < 0 ? &field->settled : &field->ring[k];
-        KIRI_EACH(const int32_t, cell, *list) {
-            kiriField_Forget(field, *cell);
+        KIRI_EACH_LISTED(cell, *list) {
+            kiriField_Forget(field, cell);
         }
         list->count = 0;
     }
@@ -202,12 +202,6 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
     return KIRI_MORE;
 }
 
-/* Takes a step to a cell. False for memory. */
-static inline bool TakeGridStep(kiriField* field, kiriMemory* memory, kiriSeed to, bool repairs)
-{
-    return !IsNearerSeed(to, ValueOf(field, to.cell)) || GiveValue(field, memory, to, repairs);
-}
-
 /* Takes the steps from a cell, as far as `room`. False for memory. */
 static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from,
                                  int32_t room, bool repairs)
@@ -216,7 +210,7 @@ static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kir
     int32_t hits = room < KIRI_UNIT_KNIGHT ? -1 : HitsAt(field, grid, from.cell, ABOVE, passed, 1);
     EACH_HIT(step, grid, from.cell, hits) {
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
-        if (step.length <= room && !TakeGridStep(field, memory, to, repairs)) {
+        if (step.length <= room && IsNearerSeed(to, ValueOf(field, to.cell)) && !GiveValue(field, memory, to, repairs)) {
             return false;
         }
     }
@@ -443,8 +437,8 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         KIRI_EACH(const kiriSeed, logged, field->log) {
             field->marks.data[logged->cell] = 0;
         }
-        KIRI_EACH(const int32_t, cell, field->settled) {
-            field->marks.data[*cell] = 0;
+        KIRI_EACH_LISTED(cell, field->settled) {
+            field->marks.data[cell] = 0;
         }
         field->settled.count = 0;
         field->stage = REPAIR_NONE;

@@ -193,8 +193,8 @@ static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 
 void kiriSquares_ClearDirty(kiriSquares* squares)
 {
-    KIRI_EACH(const int32_t, square, squares->dirty) {
-        squares->isDirty[*square] = 0;
+    KIRI_EACH_LISTED(square, squares->dirty) {
+        squares->isDirty[square] = 0;
     }
     squares->dirty.count = 0;
 }

@@ -168,9 +168,7 @@ static bool CloseLoop(BladeWork* work, Track* track)
 /* Returns the point of the segment from a to b that is nearest to p. */
 static kiriVec2 FootOnWay(kiriVec2 a, kiriVec2 b, kiriVec2 p)
 {
-    kiriVec2 way = kiriVec2_Sub(b, a);
-    double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
-    return kiriVec2_AddScaled(a, kiriClamp(share, 0.0, 1.0), way);
+    return kiriVec2_AddScaled(a, kiriVec2_PartOnWay(p, a, b), kiriVec2_Sub(b, a));
 }
 
 static bool FindSlit(const BladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit);
@@ -212,7 +210,7 @@ static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, i
 {
     double least = distance;
     kiriNearby around = LookAround(work, rest, distance);
-    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+    KIRI_EACH_NEARBY(t, around) {
         FindLipInTriangle(work, t, rest, which, &least, lip);
     }
     return least < distance;
@@ -412,7 +410,7 @@ static void FindPlace(const BladeWork* work, Track* track)
     double best = work->unseen, near = SAME * work->snap;
     kiriNearby around = LookAround(work, track->rest, near);
     track->isSeen = false;
-    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
+    KIRI_EACH_NEARBY(t, around) {
         const int32_t* v = sheet->mesh.triangles.data[t].vertex;
         const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
         double shares[3], off = kiriVec2_Distance(NearestInTriangle(corner, track->rest, shares), track->rest);
@@ -450,22 +448,15 @@ static kiriVec3 CameOf(const void* context, int32_t vertex)
     return kiriVec3_AddScaled(sum, work->ticks, kiriSurface_Came(&work->sheet->seen.surface, vertex));
 }
 
-/* Removes lines that stay at a place: where a track is in its slit, rounding tells on which side it begins. */
-static void DropPoints(BladeWork* work)
+/* Returns false for a line that stays at a place: where a track is in its slit, rounding tells on which side it begins. */
+static bool IsLong(const BladeWork* work, const kiriSectionLine* line)
 {
-    kiriSection* section = &work->section;
-    int32_t kept = 0;
-    KIRI_EACH_INDEX(i, section->lines) {
-        const kiriSectionLine line = section->lines.data[i];
-        const kiriSectionPoint* points = &section->points.data[line.first];
-        bool isLong = line.end[0] == KIRI_END_TO || line.end[1] == KIRI_END_TO;
-        for (int32_t k = 1; k < line.count && !isLong; ++k) {
-            isLong = kiriVec2_Distance(points[k].rest, points[0].rest) > DEGENERATE * work->snap;
-        }
-        section->lines.data[kept] = line;
-        kept += isLong;
+    const kiriSectionPoint* points = &work->section.points.data[line->first];
+    bool isLong = line->end[0] == KIRI_END_TO || line->end[1] == KIRI_END_TO;
+    KIRI_FROM_TO_WHILE(!isLong, k, 1, line->count) {
+        isLong = kiriVec2_Distance(points[k].rest, points[0].rest) > DEGENERATE * work->snap;
     }
-    section->lines.count = kept;
+    return isLong;
 }
 
 /* Finds the lines that the edge draws in this step. */
@@ -668,7 +659,7 @@ static bool StepThroughSheet(BladeWork* work)
     work->isHeld = kiriVec3_Length(kiriVec3_Sub(work->is[0], work->was[0])) < work->snap &&
                    kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
     bool ok = FindLines(work);
-    DropPoints(work);
+    KIRI_KEEP_IF(const kiriSectionLine, line, work->section.lines, IsLong(work, line));
     int32_t layers = work->crossings = 0;
     KIRI_TIMES_WHILE(ok, i, 2 * work->section.lines.count) {
         work->crossings += work->section.lines.data[i / 2].end[i % 2] == KIRI_END_TO;
@@ -679,8 +670,8 @@ static bool StepThroughSheet(BladeWork* work)
     work->isMessy = work->crossings + layers > MANY;
     work->joins = !work->isHeld && !work->isMessy;
     ok = ok && kiriArray_Resize(&work->memory, &work->taker, 2 * work->section.lines.count);
-    KIRI_EACH_INDEX_WHILE(ok, i, work->taker) {
-        work->taker.data[i] = KIRI_NONE;
+    if (ok) {
+        kiriArray_Set(&work->taker, KIRI_NONE);
     }
     KIRI_TIMES(pass, 2) { /* the ends beside a track, then others */
         KIRI_TIMES_WHILE(ok, i, work->oldCount) {
@@ -804,14 +795,13 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
 {
     KIRI_ARRAY(kiriVec2) ends = { 0 };
     bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
-        const kiriSheetData* sheet = world->sheets.data[i];
+    KIRI_EACH_OF_WHILE(ok, kiriSheetData, sheet, world->sheets) {
         if (sheet->queue.count == 0 || (blade->sheet != 0 && blade->sheet != sheet->id)) {
             continue;
         }
         ends.count = 0;
-        KIRI_EACH_INDEX_WHILE(ok, k, sheet->cuts) {
-            ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->tip.last);
+        KIRI_EACH_OF_WHILE(ok, kiriCutData, cut, sheet->cuts) {
+            ok = kiriArray_Push(&work->memory, &ends, cut->tip.last);
         }
         KIRI_EACH_WHILE(ok, const kiriQueuedPoint, point, sheet->queue) {
             KIRI_ASSERT(point->cut->index >= 0 && point->cut->index < ends.count);
@@ -859,9 +849,9 @@ static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeDa
         }
         work->ticks = i == 0 && blade->isPlaced ? blade->ticks : 0;
         NextStep(work);
-        KIRI_EACH_INDEX_WHILE(ok, k, world->sheets) {
-            work->sheet = world->sheets.data[k];
-            ok = (blade->sheet != 0 && blade->sheet != work->sheet->id) || StepThroughSheet(work);
+        KIRI_EACH_OF_WHILE(ok, kiriSheetData, sheet, world->sheets) {
+            work->sheet = sheet;
+            ok = (blade->sheet != 0 && blade->sheet != sheet->id) || StepThroughSheet(work);
         }
     }
     NextStep(work);
@@ -897,9 +887,9 @@ static void QueueStrokes(kiriWorld* world, BladeWork* work)
         KIRI_ASSERT(work->strokes.data[point->stroke].cut->sheet == work->strokes.data[point->stroke].sheet);
         kiriWorld_QueuePoint(world, work->strokes.data[point->stroke].cut, point->rest, point->isStart);
     }
-    KIRI_EACH_INDEX(i, work->strokes) {
-        if (work->strokes.data[i].isOver) {
-            kiriWorld_EndCut(world, work->strokes.data[i].cut);
+    KIRI_EACH(const Stroke, stroke, work->strokes) {
+        if (stroke->isOver) {
+            kiriWorld_EndCut(world, stroke->cut);
         }
     }
 }

@@ -88,17 +88,6 @@ static void BeginPins(const kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-/* Gives the impulses of pins to their obstacles: to movable ones, or to the others. */
-static void EndPins(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
-{
-    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
-        kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
-        if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable) {
-            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-dt, pin->bore.force), pin->target);
-        }
-    }
-}
-
 /* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriObstacles_Reserve(kiriWorld* world)
@@ -146,8 +135,8 @@ static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleD
         kiriSheet_WakeAll(sheet);
         return;
     }
-    KIRI_EACH(const int32_t, triangle, *triangles) {
-        kiriSheet_WakePiece(sheet, kiriPiece_OfTriangle(sheet, *triangle));
+    KIRI_EACH_LISTED(triangle, *triangles) {
+        kiriSheet_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangle));
     }
 }
 
@@ -265,8 +254,8 @@ static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kir
         return true;
     }
     bool ok = FindNear(search, sheet, obstacle, reach);
-    KIRI_EACH_WHILE(ok, const int32_t, triangle, *triangles) {
-        Stir(sheet, kiriPiece_OfTriangle(sheet, *triangle));
+    KIRI_EACH_LISTED_WHILE(ok, triangle, *triangles) {
+        Stir(sheet, kiriPiece_OfTriangle(sheet, triangle));
     }
     return ok;
 }
@@ -421,8 +410,7 @@ void kiriObstacles_Begin(kiriWorld* world)
 static void LoadYields(const kiriWorld* world, kiriSheetData* sheet)
 {
     KIRI_EACH(kiriYieldRow, row, sheet->touches.yields) {
-        KIRI_EACH_INDEX_WHILE(row->number > 0 && row->inverseMass > 0.0, i, world->obstacles) {
-            const kiriObstacleData* obstacle = world->obstacles.data[i];
+        KIRI_EACH_OF_WHILE(row->number > 0 && row->inverseMass > 0.0, kiriObstacleData, obstacle, world->obstacles) {
             if (NumberOf(obstacle) == row->number) {
                 kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
                 kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
@@ -541,7 +529,7 @@ static void JoinObstacle(const kiriWorld* world, int32_t sheet, const kiriObstac
     }
 }
 
-/* Joins a sheet with the obstacles that it touches, including those of its last touches, in case it sleeps. */
+/* Joins a sheet with the obstacles that it touches or touched, for it may sleep. */
 static void JoinTouched(const kiriWorld* world, int32_t sheet)
 {
     const kiriSheetData* data = world->sheets.data[sheet];
@@ -632,8 +620,11 @@ static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
 {
     kiriSheetData* sheet = task->world->sheets.data[i];
     TakeImpulses(task->world, sheet, task->dt, areMovable);
-    if (task->world->moves.of.data[i].progress != KIRI_MORE) {
-        EndPins(task->world, sheet, task->dt, areMovable);
+    KIRI_EACH_WHILE(task->world->moves.of.data[i].progress != KIRI_MORE, const kiriPinData, pin, sheet->pins) {
+        kiriObstacleData* obstacle = kiriPinStep_Obstacle(task->world, pin);
+        if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable) {
+            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-task->dt, pin->bore.force), pin->target);
+        }
     }
 }
 
@@ -656,7 +647,7 @@ static void MoveSheet(const MoveTask* task, int32_t first)
         moves[first].systems = 0;
         return;
     }
-    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
+    KIRI_EACH_OF_CLUSTER(i, &world->islands, first) {
         LoadYields(world, world->sheets.data[i]);
         moves[i].systems = 0;
     }
@@ -670,7 +661,7 @@ static void MoveSheet(const MoveTask* task, int32_t first)
     if (isAlone && isMoved && moves[first].progress == KIRI_DONE) {
         sheet->turns.next = next;
     }
-    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
+    KIRI_EACH_OF_CLUSTER(i, &world->islands, first) {
         GiveImpulses(task, i, true);
     }
 }
@@ -747,9 +738,9 @@ static void EndMoved(const MoveTask* task, int32_t i, kiriQuota* systems)
     }
     systems->left = kiriMax(systems->left - world->moves.of.data[i].systems, 0);
     systems->used += world->moves.of.data[i].systems;
-    for (; i != KIRI_NONE; i = world->islands.next.data[i]) {
-        GiveImpulses(task, i, false);
-        world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[i]->solver);
+    KIRI_EACH_OF_CLUSTER(k, &world->islands, i) {
+        GiveImpulses(task, k, false);
+        world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[k]->solver);
     }
 }
 
@@ -801,8 +792,8 @@ static bool IsInRanges(const kiriWorld* world, int32_t k)
 bool kiriSkinStep_Prepare(kiriWorld* world)
 {
     int64_t count = 0;
-    KIRI_EACH_INDEX_WHILE(kiriTasks_AreGiven(&world->tasks) || world->seams.count > 0, i, world->sheets) {
-        count += world->sheets.data[i]->mesh.vertices.count / RANGE_VERTICES + 1;
+    KIRI_EACH_OF_WHILE(kiriTasks_AreGiven(&world->tasks) || world->seams.count > 0, kiriSheetData, sheet, world->sheets) {
+        count += sheet->mesh.vertices.count / RANGE_VERTICES + 1;
     }
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count) && kiriWelds_Reserve(world);
 }

@@ -23,14 +23,6 @@ static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
     return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
 }
 
-/* Returns the probes of a body. */
-static kiriIndexSpan ProbesOf(const kiriBody* body)
-{
-    const kiriPieceRow* row = &body->sheet->probes.list;
-    kiriSpan span = kiriPieceRow_Of(row, body->piece);
-    return (kiriIndexSpan){ row->items.data + span.first, span.count };
-}
-
 /* Returns the distance that two bodies keep, m. */
 static double KeptDistance(const kiriBody* a, const kiriBody* b)
 {
@@ -140,7 +132,7 @@ static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
     kiriPairs* pairs = &world->pairs;
     bool isAbove = touch->upper.vertex[1] == KIRI_NONE;
     const kiriPlace3* probe = isAbove ? &touch->upper : &touch->lower;
-    int32_t* known = &probe->sheet->probes.touch.data[2 * (size_t)probe->vertex[0] + isAbove];
+    int32_t* known = &probe->sheet->probes.touch.data[2 * probe->vertex[0] + isAbove];
     if (*known == KIRI_NONE || kiriVec3_Dot(pairs->touches.data[*known].normal, touch->normal) < ALIKE) {
         *known = pairs->touches.count;
         return kiriArray_Push(&world->memory, &pairs->touches, *touch);
@@ -164,11 +156,10 @@ static void RankTouch(kiriPairTouch* touch, double distance)
 
 static void ForgetTouches(kiriWorld* world)
 {
-    KIRI_EACH_INDEX(i, world->pairs.bodies) {
-        kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
-        kiriIndexSpan span = ProbesOf(&world->pairs.bodies.data[i]);
-        KIRI_EACH_INDEX(k, span) {
-            int32_t* touch = &probes->touch.data[2 * (size_t)span.data[k]];
+    KIRI_EACH(const kiriBody, body, world->pairs.bodies) {
+        const kiriProbes* probes = &body->sheet->probes;
+        KIRI_EACH_IN(i, kiriPieceRow_Of(&probes->list, body->piece)) {
+            int32_t* touch = &probes->touch.data[2 * probes->list.items.data[i]];
             touch[0] = touch[1] = KIRI_NONE;
         }
     }
@@ -286,8 +277,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     ListAwake(world);
-    KIRI_EACH_INDEX(i, pairs->pairs) {
-        const kiriTouchingPair* pair = &pairs->pairs.data[i];
+    KIRI_EACH(const kiriTouchingPair, pair, pairs->pairs) {
         const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
         if (pair->touches && upper != NULL && lower != NULL && upper != lower && kiriPiece_IsAwake(upper) &&
             kiriPiece_IsAwake(lower)) {
@@ -307,8 +297,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     KIRI_TIMES(isGiven, 2) {
         KIRI_EACH_INDEX(k, world->active) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
-            KIRI_EACH_INDEX(p, sheet->layout.pieces) {
-                kiriPiece* piece = &sheet->layout.pieces.data[p];
+            KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
                 if (kiriPiece_IsAwake(piece)) {
                     double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];
                     *calm = kiriMin(piece->rest.calm, *calm);
@@ -334,9 +323,8 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
         body->mass += frame->mass;
         body->momentum = kiriVec3_AddScaled(body->momentum, frame->mass, frame->velocity);
     }
-    KIRI_EACH_INDEX(i, sheet->layout.pinFrame) {
-        int32_t piece = sheet->layout.framePiece.data[sheet->layout.pinFrame.data[i]];
-        pairs->bodies.data[firstBody + piece].isHeld = true;
+    KIRI_EACH_LISTED(frame, sheet->layout.pinFrame) {
+        pairs->bodies.data[firstBody + sheet->layout.framePiece.data[frame]].isHeld = true;
     }
 }
 
@@ -415,7 +403,6 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
 static bool FindWaking(kiriWorld* world, Waking* waking)
 {
     bool ok = true;
-    KIRI_CLEAR(waking);
     KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (TakesPart(sheet) && !sheet->rest.asleep) {
@@ -434,8 +421,7 @@ static bool AreSeveral(const kiriWorld* world)
 {
     kiriSheetData* last = NULL;
     int32_t count = 0;
-    KIRI_EACH_INDEX_WHILE(count < 2, i, world->sheets) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    KIRI_EACH_OF_WHILE(count < 2, kiriSheetData, sheet, world->sheets) {
         count += TakesPart(sheet) ? sheet->layout.pieces.count : 0;
         last = TakesPart(sheet) ? sheet : last;
     }
@@ -465,8 +451,7 @@ static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kir
 static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
 {
     bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    KIRI_EACH_OF_WHILE(ok, kiriSheetData, sheet, world->sheets) {
         if (!TakesPart(sheet)) {
             continue;
         }
@@ -590,11 +575,11 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
     if (off >= OPEN * rest) {
         return 0.0;
     }
-    KIRI_FROM_TO(k, own.first, own.first + own.count) {
+    KIRI_EACH_IN(k, own) {
         double there = 0.0;
         KIRI_TIMES(c, 3) {
             kiriSpan other = skin->spans.data[corners[c]];
-            KIRI_FROM_TO(n, other.first, other.first + other.count) {
+            KIRI_EACH_IN(n, other) {
                 const kiriSampleWeight* weight = &skin->weights.data[n];
                 there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
             }
@@ -730,7 +715,7 @@ static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower,
 {
     const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
     double sum = 0.0;
-    KIRI_FROM_TO(i, nears.first, nears.first + nears.count) {
+    KIRI_EACH_IN(i, nears) {
         const kiriNear* near = &pairs->nears.data[i];
         double above = Above(pairs, near, dt);
         sum += near->body == lower ? -above * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) : above;
@@ -758,7 +743,7 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
 {
     const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    KIRI_FROM_TO(i, nears.first, nears.first + nears.count) {
+    KIRI_EACH_IN(i, nears) {
         const kiriNear* near = &world->pairs.nears.data[i];
         sum = kiriVec3_Add(sum, near->body == lower ? kiriVertex_SkinNormal(sheet, near->vertex) : near->normal);
     }
@@ -822,10 +807,7 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
         return false;
     }
     nears.count = pairs->nears.count - nears.first;
-    if (nears.count == 0) {
-        return true;
-    }
-    return kiriArray_Push(&world->memory, &pairs->found, Decide(world, a, b, nears, dt));
+    return nears.count == 0 || kiriArray_Push(&world->memory, &pairs->found, Decide(world, a, b, nears, dt));
 }
 
 static bool IsFarther(const void* context, int32_t a, int32_t b)
@@ -841,31 +823,24 @@ static bool LookAtAll(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
     double fastest = 0.0, thickest = 0.0;
-    if (!kiriArray_Resize(&world->memory, &pairs->order, pairs->bodies.count)) {
-        return false;
-    }
-    KIRI_EACH_INDEX(i, pairs->bodies) {
-        const kiriBody* body = &pairs->bodies.data[i];
+    KIRI_EACH(const kiriBody, body, pairs->bodies) {
         fastest = kiriMax(body->speed, fastest);
         thickest = kiriMax(KeptDistance(body, body), thickest);
-        pairs->order.data[i] = i;
     }
     double reach = 2.0 * thickest + dt * (2.0 * fastest + dt * kiriVec3_Length(world->gravity));
-    kiriSort(pairs->order.data, pairs->order.count, IsFarther, pairs->bodies.data);
-    KIRI_EACH_INDEX(i, pairs->order) {
+    bool ok = kiriSort_Order(&world->memory, &pairs->order, pairs->bodies.count, IsFarther, pairs->bodies.data);
+    KIRI_EACH_INDEX_WHILE(ok, i, pairs->order) {
         int32_t a = pairs->order.data[i];
         double end = pairs->bodies.data[a].box.upper.x + reach;
         KIRI_FROM_TO(k, i + 1, pairs->order.count) {
             int32_t b = pairs->order.data[k];
-            if (pairs->bodies.data[b].box.lower.x > end) {
+            if (!ok || pairs->bodies.data[b].box.lower.x > end) {
                 break;
             }
-            if (!LookAtPair(world, kiriMin(a, b), kiriMax(b, a), dt)) {
-                return false;
-            }
+            ok = LookAtPair(world, kiriMin(a, b), kiriMax(b, a), dt);
         }
     }
-    return true;
+    return ok;
 }
 
 /* ---- Folds ----
@@ -1055,11 +1030,10 @@ static bool KeepSleeping(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     bool ok = true;
-    KIRI_EACH_INDEX_WHILE(ok, i, pairs->pairs) {
-        kiriTouchingPair pair = pairs->pairs.data[i];
-        pair.nears.count = 0;
-        ok = !IsPairAsleep(world, pair.upper) || !IsPairAsleep(world, pair.lower) ||
-             kiriArray_Push(&world->memory, &pairs->found, pair);
+    KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, pairs->pairs) {
+        pair->nears.count = 0;
+        ok = !IsPairAsleep(world, pair->upper) || !IsPairAsleep(world, pair->lower) ||
+             kiriArray_Push(&world->memory, &pairs->found, *pair);
     }
     return ok;
 }
@@ -1073,41 +1047,26 @@ static bool IsBefore(const void* context, int32_t a, int32_t b)
 static bool SortFound(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
-    if (!kiriArrays_Resize(&world->memory, pairs->found.count, &pairs->order, &pairs->next)) {
+    if (!kiriSort_Order(&world->memory, &pairs->order, pairs->found.count, IsBefore, pairs->found.data) ||
+        !kiriArray_Resize(&world->memory, &pairs->next, pairs->found.count)) {
         return false;
     }
-    KIRI_EACH_INDEX(i, pairs->found) {
-        pairs->order.data[i] = i;
-    }
-    kiriSort(pairs->order.data, pairs->order.count, IsBefore, pairs->found.data);
     KIRI_EACH_INDEX(i, pairs->found) {
         pairs->next.data[i] = pairs->found.data[pairs->order.data[i]];
     }
     return true;
 }
 
-static bool LookForPairs(kiriWorld* world, double dt)
-{
-    Waking waking;
-    return FindWaking(world, &waking) && (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt)));
-}
-
 bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
+    Waking waking = { .any = false };
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return (!AreSeveral(world) || LookForPairs(world, dt)) &&
-           KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
+    return (!AreSeveral(world) || FindWaking(world, &waking)) &&
+           (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
 }
 
 /* ---- Sleep ---- */
-
-static void StirBody(const kiriWorld* world, kiriFrame id)
-{
-    const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
-    kiriSheetData* sheet = slot->owner;
-    kiriSheet_PieceOf(sheet, slot->index)->rest.isStirred = sheet->rest.isStirred = true;
-}
 
 static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 {
@@ -1120,8 +1079,9 @@ static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
     KIRI_EACH(const kiriTouchingPair, pair, *pairs) {
         bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
         if (pair->touches && isUpperAsleep != isLowerAsleep) {
-            StirBody(world, isUpperAsleep ? pair->upper : pair->lower);
-            any = true;
+            const kiriSlot* slot = kiriPool_Find(&world->frameIds, isUpperAsleep ? pair->upper : pair->lower);
+            kiriSheetData* sheet = slot->owner;
+            kiriSheet_PieceOf(sheet, slot->index)->rest.isStirred = sheet->rest.isStirred = any = true;
         }
     }
     return any;
