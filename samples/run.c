@@ -1,5 +1,5 @@
 /* Runs a scene, writes its pictures, and prints what the library did and how long it took. */
-#define _POSIX_C_SOURCE 199309L
+#define _POSIX_C_SOURCE 200112L
 
 #include "export.h"
 #include "glb.h"
@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { SHEET_COLUMNS = 3, SHEET_ROWS = SCENE_MOMENTS / SHEET_COLUMNS, SHEET_GAP = 4, LAST_DELAY = 60 };
 
@@ -244,6 +245,7 @@ static void Times_Print(Times* times, const Scene* scene, const Options* options
 /* `replay`: null, or in place of the scene's script. */
 static bool RunTicks(Scene* scene, SceneReplay* replay, Film* film, Times* times, const Options* options, int32_t ticks)
 {
+    bool tells = !options->quiet && isatty(STDERR_FILENO);
     for (int32_t i = 0; i < ticks; i++) {
         double start = ReadClock(NULL);
         kiriResult result = replay != NULL ? SceneReplay_Tick(replay, scene) : Scene_Tick(scene);
@@ -255,11 +257,11 @@ static bool RunTicks(Scene* scene, SceneReplay* replay, Film* film, Times* times
         if (options->every > 0 && !Film_Tick(film, scene, options, ticks)) {
             return false;
         }
-        if (!options->quiet && 100 * (i + 1) / ticks > 100 * i / ticks) {
+        if (tells && 100 * (i + 1) / ticks > 100 * i / ticks) {
             fprintf(stderr, "\r%3d %%  tick %d of %d ", 100 * (i + 1) / ticks, i + 1, ticks);
         }
     }
-    if (!options->quiet) {
+    if (tells) {
         fprintf(stderr, "\n");
     }
     return true;

@@ -35,7 +35,7 @@ void Options_PrintHelp(void)
            "  --cells               show the grid, and which of its squares the cuts divide\n"
            "  --points              give sheets 200 collision points, and show them\n"
            "  --contacts            show contacts, obstacles, pins and blades of the world\n"
-           "  --quiet               no progress line\n"
+           "  --quiet               no progress line, as where no terminal reads\n"
            "  --help\n\nScenes:\n");
     for (int32_t i = 0; Scene_GetType(i) != NULL; i++) {
         printf("  %-10s %s\n", Scene_GetType(i)->name, Scene_GetType(i)->about);
