@@ -101,7 +101,7 @@ typedef struct kiriWorldDef {
     kiriBudget budget;  /* default: no limit */
     kiriAllocFn* alloc; /* null: malloc and free. Set both or none. */
     kiriFreeFn* free;
-    kiriLogFn* log;             /* one line for each error; null: silent */
+    kiriLogFn* log;             /* one line for each error and KIRI_EVENT_STRAINED; null: silent */
     kiriClockFn* clock;         /* null: the profile has counts, and no times */
     kiriStartTaskFn* startTask; /* null: a tick runs in the calling thread alone. Set both or none. */
     kiriFinishTaskFn* finishTask;

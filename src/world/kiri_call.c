@@ -656,16 +656,21 @@ bool kiriCall_Begin(kiriCall* call)
     return true;
 }
 
-static void Log(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
+void kiriWorld_Log(const kiriWorld* world, const char* line)
 {
-    bool hasReason = why != NULL && why[0] != '\0';
-    snprintf(line, sizeof(world->errorLine), "%s: %s (%s)", function, hasReason ? why : kiriGetResultText(result),
-             kiriGetResultName(result));
     if (world->log != NULL) {
         kiriWord_Add(&world->logs, 1);
         world->log(world->user, line);
         kiriWord_Add(&world->logs, -1);
     }
+}
+
+static void Log(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
+{
+    bool hasReason = why != NULL && why[0] != '\0';
+    snprintf(line, sizeof(world->errorLine), "%s: %s (%s)", function, hasReason ? why : kiriGetResultText(result),
+             kiriGetResultName(result));
+    kiriWorld_Log(world, line);
 }
 
 kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* function, kiriResult result,

@@ -223,6 +223,9 @@ bool kiriCall_Begin(kiriCall* call);
 kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* function, kiriResult result,
                         const char* why);
 
+/* The host's log gets the line. */
+void kiriWorld_Log(const kiriWorld* world, const char* line);
+
 /* Refuses a call that a callback made on its own world: KIRI_ERROR_STATE. Keeps the error line of the running call. */
 kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 

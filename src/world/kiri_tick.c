@@ -8,6 +8,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
+#include "kiri_call.h"
 #include "kiri_island.h"
 #include "kiri_move.h"
 #include "kiri_pair.h"
@@ -377,7 +378,13 @@ static void SkinAll(kiriWorld* world, double dt)
         world->profile.largestFade = kiriMax(fades->move, world->profile.largestFade);
         double strained = kiriView_Watch(sheet, dt);
         if (strained > 0.0) {
+            kiriFault advice;
             kiriWorld_AddEvent(world, KIRI_EVENT_STRAINED, sheet)->area = (float)strained;
+            KIRI_SAY(&advice,
+                     "kiriWorld_Tick: %lld cm^2 of sheet %lld are strained by more than %s: more frames, smooth "
+                     "skinning or detail may help (KIRI_EVENT_STRAINED)",
+                     (long long)(1e4 * strained), (long long)sheet->id, "15 %");
+            kiriWorld_Log(world, advice.line);
         }
     }
 }

@@ -575,7 +575,7 @@ namespace Kiri
         /// <summary>null: malloc and free. Set both or none.</summary>
         public IntPtr Alloc;
         public IntPtr Free;
-        /// <summary>one line for each error; null: silent</summary>
+        /// <summary>one line for each error and KIRI_EVENT_STRAINED; null: silent</summary>
         public IntPtr Log;
         /// <summary>null: the profile has counts, and no times</summary>
         public IntPtr Clock;

@@ -109,7 +109,7 @@ kiri.DRAW_ALL = 2047
 ---@field budget? kiri.Budget # default: no limit
 ---@field alloc? function # null: malloc and free. Set both or none.
 ---@field free? function
----@field log? function # one line for each error; null: silent
+---@field log? function # one line for each error and KIRI_EVENT_STRAINED; null: silent
 ---@field clock? function # null: the profile has counts, and no times
 ---@field startTask? function # null: a tick runs in the calling thread alone. Set both or none.
 ---@field finishTask? function

@@ -255,7 +255,7 @@ pub struct kiriWorldDef {
     /// null: malloc and free. Set both or none.
     pub alloc: kiriAllocFn,
     pub free: kiriFreeFn,
-    /// one line for each error; null: silent
+    /// one line for each error and KIRI_EVENT_STRAINED; null: silent
     pub log: kiriLogFn,
     /// null: the profile has counts, and no times
     pub clock: kiriClockFn,
