@@ -304,7 +304,8 @@ contact: packages-contact
 	$(BUILD)/tests/contact "$(CASE)"
 
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
-GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat miura card crane shirt lantern patch bag letter stamps poster weave can
+GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat card crane shirt patch bag letter stamps weave can
+FILMS := miura lantern poster
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
 JOIN = $(PYTHON) samples/join.py samples/pictures/$(1).webp 60 10 build/gallery/$(1)/frame_*.png
@@ -317,12 +318,13 @@ gallery: packages-gallery trade
 	set -e; for scene in $(GALLERY); do \
 	    $(RUN) --scene $$scene --size 800x600 --every 1000 --output build/gallery/$$scene; \
 	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
+	rm -rf $(FILMS:%=build/gallery/%)
+	set -e; for scene in $(FILMS); do $(RUN) --scene $$scene --size 480x360 --every 6 --output build/gallery/$$scene; done
 	$(RUN) --scene fallingguy --paper --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --pictures build/gallery/curtain
 	$(PLAY) $(NET_FILM) $(PLAY_FILM) --pictures build/gallery/net
-	$(call JOIN,curtain)
-	$(call JOIN,net)
+	$(foreach film,curtain net $(FILMS),$(call JOIN,$(film));)
 	$(BOX2D) --size 800x600 --ticks 180 --every 30 --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/
