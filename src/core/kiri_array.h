@@ -31,10 +31,10 @@ typedef KIRI_ARRAY(uint8_t) kiriFlags;
 typedef KIRI_ARRAY(double) kiriReals;
 typedef KIRI_ARRAY(float) kiriFloats;
 
-/* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers, and KIRI_EACH_LISTED
-   for a list of indices: `item` is each of them. The array may lose items meanwhile, but not grow. It must exist even where
-   the condition is false. KIRI_EACH_INDEX is for what needs the index; _BACK goes from the last item to the first, which may
-   be removed. */
+/* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers, and
+   KIRI_EACH_LISTED for a list of indices: `item` is each of them. The array may lose items meanwhile, but not grow. It
+   must exist even where the condition is false. KIRI_EACH_INDEX is for what needs the index; _BACK goes from the last
+   item to the first, which may be removed. */
 #define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)

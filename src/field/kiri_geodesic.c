@@ -210,7 +210,8 @@ static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kir
     int32_t hits = room < KIRI_UNIT_KNIGHT ? -1 : HitsAt(field, grid, from.cell, ABOVE, passed, 1);
     EACH_HIT(step, grid, from.cell, hits) {
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
-        if (step.length <= room && IsNearerSeed(to, ValueOf(field, to.cell)) && !GiveValue(field, memory, to, repairs)) {
+        bool isNearer = step.length <= room && IsNearerSeed(to, ValueOf(field, to.cell));
+        if (isNearer && !GiveValue(field, memory, to, repairs)) {
             return false;
         }
     }

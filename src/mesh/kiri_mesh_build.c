@@ -102,25 +102,19 @@ typedef struct WeldedVertices {
 
 static kiriResult CheckInput(const kiriMeshInput* input, kiriFault* fault)
 {
+    KIRI_ASSERT(input->vertexCount >= 3 && input->triangleCount >= 1 && input->triangleCount <= KIRI_MOST_TRIANGLES);
     if (input->positions == NULL || input->indices == NULL) {
         KIRI_SAY(fault, "restPositions or indices is null");
-    } else if (input->vertexCount < 3 || input->triangleCount < 1 || input->triangleCount > KIRI_MOST_TRIANGLES) {
-        KIRI_SAY(fault, "vertexCount or triangleCount is out of range");
-    } else if (input->resolution < 1 || input->resolution > 4096) {
-        KIRI_SAY(fault, "gridResolution is not 1 to 4096");
+        return KIRI_ERROR_ARGUMENT;
     }
-    for (int64_t i = 0; fault->line[0] == '\0' && i < 2 * (int64_t)input->vertexCount; ++i) {
-        if (!(input->positions[i] - input->positions[i] == 0.0f)) {
-            KIRI_SAY(fault, "the rest position of vertex %lld is not finite", (long long)(i / 2));
-        }
-    }
-    for (int64_t i = 0; fault->line[0] == '\0' && i < 3 * (int64_t)input->triangleCount; ++i) {
+    for (int64_t i = 0; i < 3 * (int64_t)input->triangleCount; ++i) {
         if (input->indices[i] < 0 || input->indices[i] >= input->vertexCount) {
             KIRI_SAY(fault, "triangle %lld has vertex %lld, which is not within 0 and %lld", (long long)(i / 3),
                      (long long)input->indices[i], (long long)input->vertexCount - 1);
+            return KIRI_ERROR_ARGUMENT;
         }
     }
-    return fault->line[0] == '\0' ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return KIRI_OK;
 }
 
 /* Chooses the lattice for the vertices that triangles have, and puts them on it. *extent is its upper corner. */

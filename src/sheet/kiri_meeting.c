@@ -189,14 +189,6 @@ static bool IsBoxNear(const void* context, const kiriBox* box)
            kiriObstacleShape_Nearest(shape, local, none).distance < reach;
 }
 
-static int32_t PatchOf(const kiriMeeting* meeting, int32_t vertex)
-{
-    const kiriMeshData* mesh = &meeting->sheet->mesh;
-    int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at);
-    int32_t column = square % mesh->squares.columns, row = square / mesh->squares.columns;
-    return row / meeting->squares * meeting->columns + column / meeting->squares;
-}
-
 /* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
 static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
 {
@@ -231,10 +223,15 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         };
     } else if (nearest.distance < meeting->reach) {
         /* One that had a force counts as deeper, so that vertices of similar depth do not alternate. */
-        bool pushed = nearest.distance <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
+        const kiriObstacleSearch* search = meeting->search;
+        bool pushed = nearest.distance <= 2.0 * meeting->gap && search->marks.data[vertex] > search->mark;
         double height = nearest.distance - (pushed ? PREFERRED * meeting->gap : 0.0);
+        const kiriMeshData* mesh = &meeting->sheet->mesh;
+        int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at);
+        int32_t row = square / mesh->squares.columns / meeting->squares;
+        int32_t column = square % mesh->squares.columns / meeting->squares;
         kiriNearVertex near = { vertex,
-                                PatchOf(meeting, vertex),
+                                row * meeting->columns + column,
                                 kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
                                 KIRI_NONE,
                                 height,
@@ -867,20 +864,6 @@ static int64_t VersionOf(const kiriSheetData* sheet)
     return isSame ? moved->version : 0;
 }
 
-/* Drops the found triangles of pieces that neither move nor wake in this tick. */
-static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
-{
-    const kiriPiece* pieces = sheet->layout.pieces.data;
-    int32_t awake = 0;
-    while (awake < sheet->layout.pieces.count && kiriPiece_MayMove(&pieces[awake])) {
-        ++awake;
-    }
-    if (awake == sheet->layout.pieces.count) {
-        return;
-    }
-    KIRI_KEEP_IF(const int32_t, at, search->triangles, kiriPiece_MayMove(&pieces[kiriPiece_OfTriangle(sheet, *at)]));
-}
-
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                             double speed, int32_t yield)
 {
@@ -891,7 +874,8 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
                                search->memory, &search->triangles)) {
         return false;
     }
-    DropSleepers(search, sheet);
+    KIRI_KEEP_IF(const int32_t, at, search->triangles, /* and none of pieces that neither move nor wake in this tick */
+                 kiriPiece_MayMove(&sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, *at)]));
     return search->triangles.count == 0 ||
            (TouchVertices(&meeting) && TouchRounds(&meeting) &&
             (sheet->settings.mechanics.planar ? TouchCorners(&meeting) : TouchEdges(&meeting)));

@@ -293,7 +293,7 @@ static STRUCT(SheetDefStruct, kiriSheetDef, KIRI_COOKIE(kiriSheetDef), "kiriDefa
     INTS_IN(vertexCount, WITHIN(3, INT32_MAX)), /* counts before arrays */
     INTS_IN(triangleCount, WITHIN(1, KIRI_MOST_TRIANGLES)),
     INTS_IN(frameCount, WITHIN(0, 65536)),
-    ARRAY_IN(KIRI_FORM_FLOATS_AT, restPositions, 2, vertexCount, ANY_NUMBER),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, restPositions, 2, vertexCount, ANY_FINITE),
     ARRAY_IN(KIRI_FORM_INDICES_AT, indices, 3, triangleCount, ANY_NUMBER),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, framePoints, 2, frameCount, ANY_FINITE),
     FLOATS_IN(position, ANY_FINITE),

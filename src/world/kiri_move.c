@@ -792,7 +792,8 @@ static bool IsInRanges(const kiriWorld* world, int32_t k)
 bool kiriSkinStep_Prepare(kiriWorld* world)
 {
     int64_t count = 0;
-    KIRI_EACH_OF_WHILE(kiriTasks_AreGiven(&world->tasks) || world->seams.count > 0, kiriSheetData, sheet, world->sheets) {
+    bool isRanged = kiriTasks_AreGiven(&world->tasks) || world->seams.count > 0;
+    KIRI_EACH_OF_WHILE(isRanged, kiriSheetData, sheet, world->sheets) {
         count += sheet->mesh.vertices.count / RANGE_VERTICES + 1;
     }
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count) && kiriWelds_Reserve(world);

@@ -143,29 +143,6 @@ static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
     return true;
 }
 
-/* Ranks touches, so that surfaces at nearly the same distance do not alternate. The normal becomes the mean of this tick's and
-   the last one's. */
-static void RankTouch(kiriPairTouch* touch, double distance)
-{
-    const kiriTouchForce* last = kiriTouches_Find(touch->upper.sheet, touch->key);
-    touch->rank = touch->gap - (last != NULL ? NEARER * distance : 0.0);
-    if (last != NULL && kiriVec3_Dot(last->normal, touch->normal) > SAME_SIDE) {
-        touch->normal = kiriVec3_Normalize(kiriVec3_Add(last->normal, touch->normal));
-    }
-}
-
-static void ForgetTouches(kiriWorld* world)
-{
-    KIRI_EACH(const kiriBody, body, world->pairs.bodies) {
-        const kiriProbes* probes = &body->sheet->probes;
-        KIRI_EACH_IN(i, kiriPieceRow_Of(&probes->list, body->piece)) {
-            int32_t* touch = &probes->touch.data[2 * probes->list.items.data[i]];
-            touch[0] = touch[1] = KIRI_NONE;
-        }
-    }
-    world->pairs.touches.count = 0;
-}
-
 #define SEWN_REACH 4.0    /* of the distance that pieces keep: beside a seam, lips that near do not push each other, */
 #define SEWN_SPACING 0.25 /* and of the distance of frames: the skins of lips differ from what stitches hold */
 
@@ -206,7 +183,12 @@ static double CompleteTouch(const kiriWorld* world, kiriPairTouch* touch, double
         if (AreSewn(&touch->upper, &touch->lower, thickness)) {
             return HUGE_VAL;
         }
-        RankTouch(touch, touch->distance);
+        /* So surfaces at nearly the same distance do not alternate. */
+        const kiriTouchForce* last = kiriTouches_Find(touch->upper.sheet, touch->key);
+        touch->rank = touch->gap - (last != NULL ? NEARER * touch->distance : 0.0);
+        if (last != NULL && kiriVec3_Dot(last->normal, touch->normal) > SAME_SIDE) {
+            touch->normal = kiriVec3_Normalize(kiriVec3_Add(last->normal, touch->normal));
+        }
     }
     return above;
 }
@@ -245,7 +227,14 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 static bool TouchPairs(kiriWorld* world, double dt)
 {
     bool ok = true;
-    ForgetTouches(world);
+    KIRI_EACH(const kiriBody, body, world->pairs.bodies) {
+        const kiriProbes* probes = &body->sheet->probes;
+        KIRI_EACH_IN(i, kiriPieceRow_Of(&probes->list, body->piece)) {
+            int32_t* touch = &probes->touch.data[2 * probes->list.items.data[i]];
+            touch[0] = touch[1] = KIRI_NONE;
+        }
+    }
+    world->pairs.touches.count = 0;
     KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, world->pairs.next) {
         ok = pair->nears.count == 0 || TouchPair(world, pair, dt);
     }
@@ -1063,7 +1052,8 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     Waking waking = { .any = false };
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
     return (!AreSeveral(world) || FindWaking(world, &waking)) &&
-           (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
+           (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) &&
+           SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
 }
 
 /* ---- Sleep ---- */

@@ -274,20 +274,34 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
 
 /* ---- The format -------------------------------------------------------------------------------------------------- */
 
-static const char saveMagic[8] = { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' };
-
-/* Precedes the world. The sum of all bytes follows it. */
-typedef struct SaveHead {
+/* Precedes the world. Bytes of another version, or snapshots of another build, have another layout. */
+typedef struct Head {
     char magic[8];
-    int32_t version, library;
+    uint64_t layout;
     int64_t size; /* of all bytes */
-} SaveHead;
+} Head;
 
-KIRI_TABLE(SaveHeadTable, SaveHead, {
+KIRI_TABLE(HeadTable, Head, {
     KIRI_RUN(1, magic),
-    KIRI_RUN(4, version, library),
-    KIRI_RUN(8, size),
+    KIRI_RUN(8, layout, size),
 })
+
+static Head HeadOfSave(int64_t size)
+{
+    return (Head){ { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' }, SAVE_VERSION | (uint64_t)KIRI_VERSION << 32, size };
+}
+
+static Head HeadOfSnapshot(int64_t size)
+{
+    Head head = { { 'K', 'i', 'r', 'i', 'S', 'n', 'a', 'p' }, KIRI_HASH_START, size };
+    kiriHash_Int32(&head.layout, KIRI_VERSION);
+    kiriArchive_HashLayout(WorldTable, &head.layout);
+    kiriArchive_HashLayout(BladeDataTable, &head.layout);
+    kiriArchive_HashLayout(SeamTable, &head.layout);
+    kiriArchive_HashLayout(StitchTable, &head.layout);
+    kiriSheet_HashLayout(&head.layout);
+    return head;
+}
 
 static uint64_t WordAt(const uint8_t* b, int64_t count)
 {
@@ -316,23 +330,26 @@ static kiriWorld* Unlocked(const kiriWorld* world)
     return (kiriWorld*)(uintptr_t)world; /* archives that do not read bytes change nothing */
 }
 
-/* Returns the fault of the bytes, or null. */
-static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
+/* Returns the number of bytes, and writes them if they fit. The sum of all before it ends a save. */
+static int64_t WriteWorld(const kiriWorld* world, bool isWhole, void* bytes, int64_t capacity)
 {
-    SaveHead head;
-    kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
-    kiriArchive_Object(&archive, SaveHeadTable, &head);
-    if (archive.isBad || memcmp(head.magic, saveMagic, sizeof(head.magic)) != 0) {
-        return "these bytes are no save";
+    kiriArchive archive = kiriArchive_Measure();
+    archive.isWhole = isWhole;
+    ArchiveWorld(&archive, Unlocked(world));
+    int64_t size = HEAD_BYTES + archive.at + (isWhole ? 0 : SUM_BYTES);
+    if (bytes != NULL && capacity >= size) {
+        Head head = isWhole ? HeadOfSnapshot(size) : HeadOfSave(size);
+        archive = kiriArchive_Write(bytes, size);
+        archive.isWhole = isWhole;
+        kiriArchive_Object(&archive, HeadTable, &head);
+        ArchiveWorld(&archive, Unlocked(world));
+        if (!isWhole) {
+            uint64_t sum = SumBytes(bytes, archive.at);
+            kiriArchive_Numbers(&archive, &sum, 8, 1);
+        }
+        KIRI_ASSERT(!archive.isBad && archive.at == size);
     }
-    if (head.version != SAVE_VERSION || head.library != KIRI_VERSION) {
-        return "the bytes are of another version of the library";
-    }
-    if (head.size != size || size < HEAD_BYTES + SUM_BYTES) {
-        return "the bytes are not as many as were saved";
-    }
-    bool isSame = WordAt(bytes + size - SUM_BYTES, SUM_BYTES) == SumBytes(bytes, size - SUM_BYTES);
-    return isSame ? NULL : "the bytes are not those that were saved";
+    return size;
 }
 
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
@@ -345,20 +362,17 @@ kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity,
             return KIRI_PENDING;
         }
     }
-    kiriArchive archive = kiriArchive_Measure();
-    ArchiveWorld(&archive, Unlocked(world));
-    *size = HEAD_BYTES + archive.at + SUM_BYTES;
+    *size = WriteWorld(world, false, bytes, capacity);
     KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a save");
-    if (bytes != NULL) {
-        SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, *size };
-        memcpy(head.magic, saveMagic, sizeof(head.magic));
-        archive = kiriArchive_Write(bytes, *size);
-        kiriArchive_Object(&archive, SaveHeadTable, &head);
-        ArchiveWorld(&archive, Unlocked(world));
-        uint64_t sum = SumBytes(bytes, archive.at);
-        kiriArchive_Numbers(&archive, &sum, 8, 1);
-        KIRI_ASSERT(!archive.isBad && archive.at == *size);
-    }
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
+    *size = WriteWorld(world, true, bytes, capacity);
+    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a snapshot");
     return KIRI_OK;
 }
 
@@ -459,6 +473,25 @@ static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t si
     return result;
 }
 
+/* Returns the fault of the bytes of a save, or null. */
+static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
+{
+    Head head, own = HeadOfSave(size);
+    kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
+    kiriArchive_Object(&archive, HeadTable, &head);
+    if (archive.isBad || memcmp(head.magic, own.magic, sizeof(head.magic)) != 0) {
+        return "these bytes are no save";
+    }
+    if (head.layout != own.layout) {
+        return "the bytes are of another version of the library";
+    }
+    if (head.size != size || size < HEAD_BYTES + SUM_BYTES) {
+        return "the bytes are not as many as were saved";
+    }
+    bool isSame = WordAt(bytes + size - SUM_BYTES, SUM_BYTES) == SumBytes(bytes, size - SUM_BYTES);
+    return isSame ? NULL : "the bytes are not those that were saved";
+}
+
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
 {
     int32_t count = size >= 0 && size <= INT32_MAX ? (int32_t)size : KIRI_NONE;
@@ -470,58 +503,16 @@ kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
     return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes have a right sum, but no world" : NULL);
 }
 
-/* ---- Snapshots --------------------------------------------------------------------------------------------------- */
-
-/* Comes before the world. Bytes of another build, or of another layout, do not match. */
-typedef struct SnapshotHead {
-    char magic[8];
-    uint64_t layout;
-    int64_t size;
-} SnapshotHead;
-
-static SnapshotHead HeadOfSnapshot(int64_t size)
-{
-    SnapshotHead head = { { 'K', 'i', 'r', 'i', 'S', 'n', 'a', 'p' }, KIRI_HASH_START, size };
-    kiriHash_Int32(&head.layout, KIRI_VERSION);
-    kiriArchive_HashLayout(WorldTable, &head.layout);
-    kiriArchive_HashLayout(BladeDataTable, &head.layout);
-    kiriArchive_HashLayout(SeamTable, &head.layout);
-    kiriArchive_HashLayout(StitchTable, &head.layout);
-    kiriSheet_HashLayout(&head.layout);
-    return head;
-}
-
-kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
-{
-    KIRI_READS(world);
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
-    kiriArchive archive = kiriArchive_Measure();
-    archive.isWhole = true;
-    ArchiveWorld(&archive, Unlocked(world));
-    *size = (int64_t)sizeof(SnapshotHead) + archive.at;
-    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a snapshot");
-    if (bytes != NULL) {
-        SnapshotHead head = HeadOfSnapshot(*size);
-        memcpy(bytes, &head, sizeof(head));
-        archive = kiriArchive_Write((uint8_t*)bytes + sizeof(head), *size - (int64_t)sizeof(head));
-        archive.isWhole = true;
-        ArchiveWorld(&archive, Unlocked(world));
-        KIRI_ASSERT(!archive.isBad && archive.at == archive.size);
-    }
-    return KIRI_OK;
-}
-
 kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
 {
     KIRI_PREPARES(world);
     KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
     KIRI_REQUIRE(world->recorder.write == NULL, KIRI_ERROR_STATE,
                  "the world is recorded: snapshots are of one process, recordings are not");
-    const SnapshotHead head = HeadOfSnapshot(size);
-    bool isOurs = size >= (int64_t)sizeof(head) && memcmp(bytes, &head, sizeof(head)) == 0;
+    const Head head = HeadOfSnapshot(size);
+    bool isOurs = size >= HEAD_BYTES && memcmp(bytes, &head, sizeof(head)) == 0;
     kiriResult result =
-        isOurs ? BecomeWorld(world, (const uint8_t*)bytes + sizeof(head), size - (int64_t)sizeof(head), true)
-               : KIRI_ERROR_DATA;
+        isOurs ? BecomeWorld(world, (const uint8_t*)bytes + HEAD_BYTES, size - HEAD_BYTES, true) : KIRI_ERROR_DATA;
     return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
 }
 
