@@ -335,10 +335,10 @@ TEST(Meshes)
         def.gridResolution = 8;
         REFUSED_DEF(KIRI_ERROR_MESH);
     }
-    static const float flat[] = { 0.0f, 0.0f, 0.5f, 0.5f, 1.0f, 1.0f },
-                       point[6] = { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f };
-    static const float* const degenerate[] = { flat, point };
-    for (int i = 0; i < 2; ++i) {
+    static const float degenerate[3][6] = { { 0.0f, 0.0f, 0.5f, 0.5f, 1.0f, 1.0f },
+                                            { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f },
+                                            { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1e-12f } }; /* too thin for the lattice */
+    for (int i = 0; i < 3; ++i) {
         kiriSheetDef def = DefaultSheet();
         static const int32_t indices[3] = { 0, 1, 2 };
         def.restPositions = degenerate[i];
@@ -580,7 +580,24 @@ typedef struct Member {
             low, high                                                                                                  \
         }                                                                                                              \
     }
+/* Of the second of the contacts. */
+#define CONTACT(member, isWhole, low, high)                                                                            \
+    {                                                                                                                  \
+        "kiriSheet_SetContacts", offsetof(Given, contacts), 12 * sizeof(kiriContact),                                  \
+            sizeof(kiriContact) + offsetof(kiriContact, member), isWhole,                                              \
+        {                                                                                                              \
+            low, high                                                                                                  \
+        }                                                                                                              \
+    }
 static const Member members[] = {
+    CONTACT(point, true, -2, INT32_MAX),
+    CONTACT(normal[0], false, 1.1, 1e30),
+    CONTACT(normal[2], false, 0.0, 0.5),
+    CONTACT(offset, false, NAN, NAN),
+    CONTACT(velocity[1], false, NAN, NAN),
+    CONTACT(friction, false, -0.1, NAN),
+    CONTACT(inverseMass, false, -1.0, NAN),
+    CONTACT(pushSpeed, false, -1.0, NAN),
     REAL(kiriSheet_SetWind, wind, kiriWind, velocity[0], NAN, NAN),
     REAL(kiriSheet_SetWind, wind, kiriWind, density, -1.0, NAN),
     REAL(kiriSheet_SetWind, wind, kiriWind, drag, -1.0, NAN),
@@ -622,7 +639,7 @@ TEST(EachMember)
         const Member* member = &members[i];
         const double values[5] = { member->bad[0], member->bad[1], NAN, INFINITY, -INFINITY };
         for (int k = 0; k < (member->isWhole ? 2 : 5); ++k) {
-            char spoiled[256];
+            char spoiled[1024];
             const void *good, *bad = spoiled;
             int32_t whole = member->isWhole ? (int32_t)values[k] : 0;
             float real = (float)values[k];
@@ -796,6 +813,10 @@ TEST(OtherRanges)
     OK(kiriSheet_Slice(w, s.given.sheet, v, &cut));
     REFUSED(KIRI_ERROR_STATE, kiriCut_End(w, cut)); /* a slice is ended already */
     REFUSED(KIRI_ERROR_STATE, kiriCut_Extend(w, cut, v, 1));
+    kiriContact beyond = s.given.contacts[0];
+    beyond.point = Host_Counts(host, s.given.sheet).collisionPoints;
+    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, &beyond, 1));
+    OK(kiriSheet_SetContacts(w, s.given.sheet, NULL, 0));
 }
 
 TEST(ShortIndicesNeedFewVertices)
@@ -808,46 +829,6 @@ TEST(ShortIndicesNeedFewVertices)
     assert_int_equal(kiriSheet_CopyIndices16(host.world, many, 0, 1, indices), KIRI_ERROR_STATE);
     kiriSheet few = Host_AddRectangle(&host, &def, 1.0f, 1.0f, SIDE - 2, SIDE - 1);
     OK(kiriSheet_CopyIndices16(host.world, few, 0, 1, indices));
-}
-
-TEST(ContactArguments)
-{
-    START_STAND(s);
-    Host* host = &s.tape.host;
-    kiriWorld* w = host->world;
-    int32_t points = Host_Counts(host, s.given.sheet).collisionPoints;
-    kiriContact c[2] = { { .point = 0, .normal = { 0.0f, 0.6f, 0.8f }, .friction = 0.5f },
-                         { .point = 1, .normal = { 1.0f, 0.0f, 0.0f }, .inverseMass = 2.0f, .pushSpeed = 0.5f } };
-    const struct {
-        float* field;
-        int count;
-    } floats[] = { { c[1].normal, 3 },    { &c[1].offset, 1 },      { c[1].velocity, 3 },
-                   { &c[1].friction, 1 }, { &c[1].inverseMass, 1 }, { &c[1].pushSpeed, 1 } };
-    for (int i = 0; i < 6; ++i) {
-        REFUSED_FLOATS(floats[i].field, floats[i].count, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
-    }
-    const int32_t wrongPoints[] = { -2, points, INT32_MIN, INT32_MAX };
-    for (int i = 0; i < 4; ++i) {
-        c[1].point = wrongPoints[i];
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
-        c[1].point = 1;
-    }
-    const struct {
-        float* field;
-        float value;
-    } ranges[] = { { &c[1].normal[0], 0.0f },  { &c[1].normal[0], 1.1f }, { &c[1].normal[1], 0.5f },
-                   { &c[1].normal[2], 1e30f }, { &c[1].friction, -0.1f }, { &c[1].inverseMass, -1.0f },
-                   { &c[1].pushSpeed, -1.0f } };
-    for (int i = 0; i < 7; ++i) {
-        float kept = *ranges[i].field;
-        *ranges[i].field = ranges[i].value;
-        REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, 2));
-        *ranges[i].field = kept;
-    }
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, NULL, 1));
-    REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetContacts(w, s.given.sheet, c, -1));
-    OK(kiriSheet_SetContacts(w, s.given.sheet, c, 2));
-    OK(kiriSheet_SetContacts(w, s.given.sheet, NULL, 0));
 }
 
 /* Finite is finite: no call with huge numbers crashes, and the mesh stays finite, or the sheet is said to have diverged. */

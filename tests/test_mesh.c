@@ -32,38 +32,6 @@ static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* 
     OK(Host_Tick(&host, 0.01f, 1));
 }
 
-static const float Unit[] = { 0, 0, 1, 0, 1, 1, 0, 1 };
-
-TEST(RefusesWhatIsNoSheet)
-{
-    const int32_t repeated[] = { 0, 1, 1, 0, 2, 3 }, clockwise[] = { 0, 2, 1, 0, 2, 3 }, twice[] = { 0, 1, 2, 0, 1, 2 };
-    const int32_t same[] = { 0, 1, 2, 0, 2, 3, 1, 2, 3 }, one[] = { 0, 1, 2 };
-    const float point[] = { 3, 3, 3, 3, 3, 3 }, line[] = { 0, 0, 1, 1, 2, 2 };
-    /* too thin for the lattice */
-    const float thin[] = { 0, 0, 1, 0, 1, 1e-12f };
-    assert_int_equal(Try(Unit, 4, repeated, 2), KIRI_ERROR_MESH);
-    assert_int_equal(Try(Unit, 4, clockwise, 2), KIRI_ERROR_MESH);
-    assert_int_equal(Try(Unit, 3, twice, 2), KIRI_ERROR_MESH);
-    assert_int_equal(Try(Unit, 4, same, 3), KIRI_ERROR_MESH);
-    assert_int_equal(Try(Unit, 4, one, 1), KIRI_OK); /* a vertex that no triangle has */
-    assert_int_equal(Try(point, 3, one, 1), KIRI_ERROR_MESH);
-    assert_int_equal(Try(line, 3, one, 1), KIRI_ERROR_MESH);
-    assert_int_equal(Try(thin, 3, one, 1), KIRI_ERROR_MESH);
-}
-
-TEST(RefusesOverlap)
-{
-    const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
-    const float crossing[] = { 0, 0, 4, 0, 2, 3, 0, 2, 2, -1, 4, 2 }, inside[] = { 0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2 };
-    const float apart[] = { 0, 0, 4, 0, 2, 3, 9, 0, 12, 0, 9, 3 };
-    /* the corner of one in the middle of the other's side */
-    const float touching[] = { 0, 0, 3, 0, 0, 3, 1.5f, 1.5f, 3, 1.5f, 3, 3 };
-    assert_int_equal(Try(crossing, 6, two, 2), KIRI_ERROR_MESH);
-    assert_int_equal(Try(inside, 6, two, 2), KIRI_ERROR_MESH);
-    assert_int_equal(Try(apart, 6, two, 2), KIRI_OK);
-    assert_int_equal(Try(touching, 6, two, 2), KIRI_OK);
-}
-
 /* A few steps of the lattice wide, beside a triangle that is as thin and ends far away: what floats are given for
    rounding does not let them lie on each other. */
 TEST(RefusesOverlapOfTheSmallest)
@@ -221,5 +189,6 @@ TEST(DividesVertices)
     const float slit[] = { 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 1, 0 }, pinch[] = { 0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2 };
     const int32_t lips[] = { 0, 1, 4, 0, 4, 3, 6, 2, 5, 6, 5, 4 }, squares[] = { 0, 1, 3, 0, 3, 2, 3, 4, 6, 3, 6, 5 };
     CheckTaken(slit, 7, lips, 4, 2, 8);
+    CheckTaken(slit, 7, lips, 1, 1, 3); /* four vertices that no triangle has */
     CheckTaken(pinch, 7, squares, 4, 2, 8);
 }
