@@ -289,7 +289,7 @@ FIGURE(CrumpledSheetSleeps)
             awake += CrumpleSheet(skinning, tilts[i], &lowest) == 480;
         }
     }
-    if (awake > 2 || lowest < -8e-3) {
+    if (awake > 2 || lowest < -12e-3) {
         fail_msg("%d of 10 awake after 480 ticks, %g m deep", awake, lowest);
     }
 }

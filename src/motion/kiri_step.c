@@ -594,7 +594,8 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
         if (kiriElement_IsRigidLink(system, k) && solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_FOLD] > 0.0) {
-            solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
+            solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_PLANE_BENDING] = 0.0; /* they change their signs in folds */
+            solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_FOLD_SLIDE] = 0.0;
         }
     }
     KIRI_TIMES(f, system->frameCount) {
@@ -766,7 +767,7 @@ static void LinearizeElement(kiriSolver* solver, const kiriSystem* system, int32
     DeriveStrains(solver, system, k, model->count, strain);
     model->flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
     kiriElement_TakeOffsets(system, k, strain, model->pulling);
-    /* Fold and stop of a link come last, and push only where they are not zero. But the line search halves every step
+    /* Fold, stop and slide of a link come last, and push only where they are not zero. But the line search halves every step
        that runs into a stop. So after a step that was cut short, the stops that it ran into resist as springs of no
        length. */
     int rows = kiriElement_StrainCount(system, k), always = rows;

@@ -395,6 +395,42 @@ static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRo
     }
 }
 
+/* Measures the gap along the fold. The axis of the turn between the frames is defined up to half a turn and beyond, unlike
+   the mean axes; with the turn t and the matrix R it is along R a + a R + (1 - trace) a, for any a. */
+static void MeasureSlide(const MeanAxes* axes, const kiriPose* const poses[2], const EndVectors* b, double* strain,
+                         kiriStrainRow* row)
+{
+    double share = axes->open * axes->open / FADING;
+    *strain = 0.0;
+    if (row != NULL) {
+        KIRI_CLEAR(row);
+    }
+    if (!(share < 1.0)) {
+        return;
+    }
+    const kiriMat3 *from = &poses[0]->A, *to = &poses[1]->A;
+    double uu = kiriVec3_Dot(from->u, to->u), vv = kiriVec3_Dot(from->v, to->v);
+    double trace = uu + vv + kiriVec3_Dot(from->d, to->d);
+    kiriVec3 a = uu > vv ? from->u : from->v;
+    kiriVec3 both = kiriVec3_Add(uu > vv ? to->u : to->v, kiriMat3_Mul(*from, kiriMat3_MulTransposed(to, a)));
+    kiriVec3 axis = kiriVec3_Normalize(kiriVec3_AddScaled(both, 1.0 - trace, a));
+    double keep = FadeOf(axes).keep, root = sqrt(1.0 + keep), lost = (1.0 - share) * root; /* lost^2 + keep^2 = 1 */
+    double slide = kiriVec3_Dot(b->gap, axis);
+    *strain = lost * slide;
+    if (row != NULL) {
+        kiriVec3 sine = kiriVec3_Add(kiriVec3_Cross(from->u, to->u), kiriVec3_Cross(from->v, to->v));
+        double cotangent = kiriVec3_Dot(axis, kiriVec3_Add(sine, kiriVec3_Cross(from->d, to->d))) / (3.0 - trace); /* of t / 2 */
+        kiriVec3 swing = kiriVec3_Scale(0.5 * cotangent, kiriVec3_AddScaled(b->gap, -slide, axis));
+        KIRI_TIMES(k, 2) {
+            double sign = k == 0 ? -lost : lost;
+            kiriVec3 arm = kiriVec3_AddScaled(b->ends[k], k == 0 ? 0.5 : -0.5, b->gap);
+            row->end[k].move = kiriVec3_Scale(sign, axis);
+            row->end[k].turn = kiriVec3_Scale(sign, kiriVec3_Add(kiriVec3_Cross(arm, axis), swing));
+        }
+        AddOpening(axes, -4.0 * axes->open / FADING * keep / root * slide, row);
+    }
+}
+
 /* Adds the stretch of the edges of a twisted strip. Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l),
    because its edges are helices. Their stretch beyond the mean has the energy of the curl, with t^2 - nu b^2 in place
    of -nu b^2 (kiri_strain.h). It is added to t^2, but fades at half a turn: if z is the addition to t^2 and
@@ -517,7 +553,7 @@ static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[
     strain[KIRI_TWIST] = MeasureAlong(axes[0][2], axes[1][1], NULL, FOLD_ROW(KIRI_TWIST));
     strain[KIRI_BENDING] = MeasureHinge(link, (const kiriVec3(*)[3])axes, FOLD_ROW(KIRI_BENDING)) - link->rest;
 #undef FOLD_ROW
-    for (int s = KIRI_FOLD; s <= KIRI_NORMAL_STOP; ++s) {
+    for (int s = KIRI_FOLD; s < KIRI_STRAINS; ++s) {
         strain[s] = 0.0;
         if (rows != NULL) {
             KIRI_CLEAR(&rows[s]);
@@ -598,6 +634,7 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
         TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
     }
     FadeStrains(&axes, bending, &byBending, strain, rows);
+    MeasureSlide(&axes, poses, &b, &strain[KIRI_FOLD_SLIDE], rows != NULL ? &rows[KIRI_FOLD_SLIDE] : NULL);
 }
 
 double kiriStrain_Damping(const double strain[KIRI_STRAINS])
@@ -645,7 +682,7 @@ static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material,
     stiffness[KIRI_BENDING] = W * bending * share;
     stiffness[KIRI_TWIST] = bending * (1.0 - nu) * W + loose * stiffness[KIRI_PLANE_BENDING];
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l) + loose * membrane * W;
-    stiffness[KIRI_FOLD] = stiffness[KIRI_NORMAL_STOP] = 0.0;
+    stiffness[KIRI_FOLD] = stiffness[KIRI_NORMAL_STOP] = stiffness[KIRI_FOLD_SLIDE] = 0.0;
 }
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
@@ -666,6 +703,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_FOLD] = stiffness[KIRI_TWIST];
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
+    stiffness[KIRI_FOLD_SLIDE] = stiffness[KIRI_SHEAR];
 }
 
 kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, const double* const strains[4],

@@ -24,6 +24,7 @@ KIRI_C_BEGIN
    normal gap     gap(m) . d                                          12 B W' / l^2, W' of NormalGapWidth
    fold           the part of |w| that bending and twist lose         as twist
    normal stop    excess of |gap(m) . d| over l / 2                   M W
+   fold slide     the part of gap(b) along the fold that shear loses  as shear
 
    A plate with the curvature tensor K has the energy D/2 ((1 - nu) |K|^2 + nu (tr K)^2) per area. Along a link,
    K n = (d_j - d_i) / l. Over the links of a Voronoi diagram the sum of W l |K n|^2 equals the area times |K|^2, so
@@ -88,6 +89,7 @@ enum {
     KIRI_NORMAL_GAP,
     KIRI_FOLD,
     KIRI_NORMAL_STOP,
+    KIRI_FOLD_SLIDE,
     KIRI_STRAINS
 };
 

@@ -146,7 +146,7 @@ KIRI_TABLE(WorldTable, kiriWorld, {
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
-enum { SAVE_VERSION = 3, HEAD_BYTES = 24, SUM_BYTES = 8 };
+enum { SAVE_VERSION = 4, HEAD_BYTES = 24, SUM_BYTES = 8 };
 
 static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 {
