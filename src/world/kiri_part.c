@@ -474,7 +474,7 @@ static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count
     }
     EndParting(&parting);
     return kiriCall_End(world, call, call->function, result,
-                        result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL);
+                        result == KIRI_ERROR_STATE ? "the piece is all of its sheet: use the sheet, or kiriDestroySheet" : NULL);
 }
 
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
