@@ -95,7 +95,7 @@ type EventType int32
 const (
 	// cut: all of it is in the mesh; the id is stale from now on
 	EventCutFinished EventType = 1
-	// frame (its first, which names it), crumb, area: a part came off; the largest stays
+	// frame (its first, which names it), crumb, area: a part came off, never the largest
 	EventPieceOff EventType = 2
 	// frame
 	EventFrameAdded EventType = 3
@@ -514,7 +514,7 @@ type Material struct {
 	Thickness float32
 	// kg/m^3, above 0
 	Density float32
-	// 1/s, 0 or more: velocities fade as exp(-airDamping t)
+	// 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
@@ -617,7 +617,7 @@ type SheetDef struct {
 	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
 	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 	SelfContact int32
-	// spread evenly over the sheet, at least one in every piece; default 0: none
+	// for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
 	CollisionPoints int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
@@ -2324,8 +2324,9 @@ func (f Frame) DetachPiece() (Sheet, error) {
 	return Sheet{f.World, SheetID(answer.detached)}, nil
 }
 
-// Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
-// is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
+// Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles stay
+// with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all of its
+// sheet.
 func (f Frame) DestroyPiece() (bool, error) {
 	if err := f.World.check(); err != nil {
 		return false, err
@@ -2782,7 +2783,7 @@ var poolSheetApplyLineLoad pool[struct {
 }]
 
 // Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges included.
-// Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+// Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine.
 func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) error {
 	if err := s.World.check(); err != nil {
 		return err
@@ -2901,7 +2902,8 @@ var poolSheetClampLine pool[struct {
 }]
 
 // Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
-// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+// outside.
 func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {
@@ -2926,7 +2928,8 @@ var poolSheetHingeLine pool[struct {
 }]
 
 // Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
-// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+// as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+// outside.
 func (s Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := s.World.check(); err != nil {

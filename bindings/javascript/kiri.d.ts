@@ -73,7 +73,7 @@ export const MOST_NOTE_BYTES: 1048576;
 export enum EventType {
     /** cut: all of it is in the mesh; the id is stale from now on */
     CutFinished = 1,
-    /** frame (its first, which names it), crumb, area: a part came off; the largest stays */
+    /** frame (its first, which names it), crumb, area: a part came off, never the largest */
     PieceOff = 2,
     /** frame */
     FrameAdded = 3,
@@ -412,7 +412,7 @@ export class Material {
     thickness: number;
     /** kg/m^3, above 0 */
     density: number;
-    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) */
+    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
@@ -437,7 +437,7 @@ export interface MaterialGiven {
     thickness?: number;
     /** kg/m^3, above 0 */
     density?: number;
-    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) */
+    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
@@ -557,7 +557,7 @@ export class SheetDef {
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
     selfContact: boolean;
-    /** spread evenly over the sheet, at least one in every piece; default 0: none */
+    /** for Sheet.setContacts: spread evenly, at least one in every piece; default 0: none */
     collisionPoints: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
@@ -637,7 +637,7 @@ export interface SheetDefGiven {
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
      *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
     selfContact?: boolean | number;
-    /** spread evenly over the sheet, at least one in every piece; default 0: none */
+    /** for Sheet.setContacts: spread evenly, at least one in every piece; default 0: none */
     collisionPoints?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
@@ -1316,8 +1316,7 @@ export class World {
      *  no ids are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that
      *  were stopped. */
     tick(dt: number, substeps: number): ResultCode;
-    /** Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next
-     *  one. */
+    /** Returns the line of the last function that changes the world, if it failed; else "". Valid until the next one. */
     getLastError(): string;
     /** Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing
      *  wakes. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit
@@ -1513,7 +1512,7 @@ export class Sheet {
     /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
     applyForce(restPoint: ArrayLike<number>, force: ArrayLike<number>, torque: ArrayLike<number>): ResultCode;
     /** Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
-     *  included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
+     *  included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of Sheet.clampLine. */
     applyLineLoad(from: ArrayLike<number>, to: ArrayLike<number>, forcePerLength: ArrayLike<number>): ResultCode;
     /** Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it. */
     applyPressure(pressure: number): ResultCode;
@@ -1526,12 +1525,12 @@ export class Sheet {
      *  outside. */
     createPin(def: PinDefGiven): Pin;
     /** Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-     *  material. */
+     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal,
+     *  or far outside. */
     clampLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-     *  material. */
+     *  material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal,
+     *  or far outside. */
     hingeLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
     getPins(): Pin[];
@@ -1584,8 +1583,9 @@ export class Frame {
      *  KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet
      *  (manual, cutting). */
     detachPiece(): Sheet | null;
-    /** Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a
-     *  cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
+    /** Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles
+     *  stay with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all of
+     *  its sheet. */
     destroyPiece(): ResultCode;
     /** Holds the frame: its rest point moves evenly to `position` (m, world) with `rotation` (columns as above) in the
      *  next tick; position and rotation null: frees it. Material that held frames mostly carry moves through obstacles. */

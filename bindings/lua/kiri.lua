@@ -769,7 +769,7 @@ function World:tick(dt, substeps)
     return result == 1
 end
 
---- Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one.
+--- Returns the line of the last function that changes the world, if it failed; else "". Valid until the next one.
 function World:getLastError()
     local world = self
     return ffi.string(C.kiriWorld_GetLastError(world.c))
@@ -1361,8 +1361,9 @@ function Frame:detachPiece()
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
---- is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
+--- Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles stay
+--- with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all of its
+--- sheet.
 function Frame:destroyPiece()
     local world = self.world
     local result = C.kiriFrame_DestroyPiece(world.c, self.id)
@@ -1591,7 +1592,7 @@ function Sheet:applyForce(restPoint, force, torque)
 end
 
 --- Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
---- included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+--- included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine.
 function Sheet:applyLineLoad(from, to, forcePerLength)
     local world = self.world
     local result = C.kiriSheet_ApplyLineLoad(world.c, self.id, vector(1, from, 2), vector(2, to, 2), vector(3, forcePerLength, 3))
@@ -1648,7 +1649,8 @@ function Pin:destroy()
 end
 
 --- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
---- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+--- outside.
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1657,7 +1659,8 @@ function Sheet:clampLine(from, to)
 end
 
 --- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
---- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+--- outside.
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)

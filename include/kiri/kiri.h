@@ -4,7 +4,7 @@
    - World coordinates are right-handed, and no axis is up: gravity points down (manual, drawing).
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres. A rotation is 9 floats: columns.
    - Frames are the few rigid bodies that carry a sheet. A kiriDefault function fills a def, with its cookie: call it first.
-   - A negative kiriResult is a failure: the world is as before the call, and kiriWorld_GetLastError() says why.
+   - A negative kiriResult is a failure: the world is as before the call, and a line of the world def's `log` says why.
    - Sheets, cuts, frames, pins, obstacles, blades and seams are 32-bit ids. 0 is never a valid id. A stale id, or the id of
      another kind, gives KIRI_ERROR_ID.
    - Arrays that the library returns stay unchanged until the next kiriWorld_Tick or kiriDestroyWorld.
@@ -123,7 +123,7 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
    left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
-/* Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one. */
+/* Returns the line of the last function that changes the world, if it failed; else "". Valid until the next one. */
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
 /* Moves the origin of the world to a point (m), as large worlds need: subtracts it from all positions. Nothing wakes.
@@ -194,7 +194,7 @@ KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64
 /* Events since the start of the last tick that was not refused. */
 enum kiriEventType {
     KIRI_EVENT_CUT_FINISHED = 1,   /* cut: all of it is in the mesh; the id is stale from now on */
-    KIRI_EVENT_PIECE_OFF = 2,      /* frame (its first, which names it), crumb, area: a part came off; the largest stays */
+    KIRI_EVENT_PIECE_OFF = 2,      /* frame (its first, which names it), crumb, area: a part came off, never the largest */
     KIRI_EVENT_FRAME_ADDED = 3,    /* frame */
     KIRI_EVENT_DIVERGED = 4,       /* the sheet was stopped */
     KIRI_EVENT_DEFERRED = 5,       /* stage, waiting: the budget ended in this stage of the sheet's work */
@@ -271,7 +271,7 @@ typedef struct kiriMaterial {
     float poissonsRatio; /* 0 to below 0.5 */
     float thickness;     /* m, above 0 */
     float density;       /* kg/m^3, above 0 */
-    float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
+    float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     float yieldStress; /* Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
@@ -369,7 +369,7 @@ typedef struct kiriSheetDef {
     /* touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
        layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
     int32_t touchesSheets, selfContact;
-    int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
+    int32_t collisionPoints; /* for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     float sleepSpeed;   /* m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never */
     int32_t model;      /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
@@ -631,8 +631,8 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    names the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet (manual, cutting). */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut is
-   pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros. */
+/* Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles stay with
+   three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all of its sheet. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
 /* Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet: all or none. KIRI_PENDING:
@@ -733,7 +733,7 @@ KIRI_API kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, cons
                                          const float force[3], const float torque[3]);
 
 /* Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges included.
-   Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
+   Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine. */
 KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                             const float forcePerLength[3]);
 
@@ -774,7 +774,7 @@ KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriP
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material, as
-   a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material. */
+   a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far outside. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],

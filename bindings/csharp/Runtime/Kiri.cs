@@ -1270,7 +1270,7 @@ namespace Kiri
         }
 
         /// <summary>Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
-        /// included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
+        /// included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine.</summary>
         public void ApplyLineLoad(Float2 from, Float2 to, Float3 forcePerLength)
         {
             World.Check(Native.kiriSheet_ApplyLineLoad(World.Handle, Id, (float*)&from, (float*)&to, (float*)&forcePerLength), "Sheet.ApplyLineLoad");
@@ -1306,8 +1306,8 @@ namespace Kiri
         }
 
         /// <summary>Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-        /// material.</summary>
+        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends
+        /// equal, or far outside.</summary>
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
@@ -1316,8 +1316,8 @@ namespace Kiri
         }
 
         /// <summary>Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-        /// material.</summary>
+        /// material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends
+        /// equal, or far outside.</summary>
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
@@ -1435,9 +1435,9 @@ namespace Kiri
             return new Sheet(World, detachedValue);
         }
 
-        /// <summary>Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on
-        /// a cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of
-        /// zeros.</summary>
+        /// <summary>Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles
+        /// stay with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all
+        /// of its sheet.</summary>
         public Status DestroyPiece()
         {
             int result;

@@ -370,7 +370,7 @@ namespace Kiri
     {
         /// <summary>cut: all of it is in the mesh; the id is stale from now on</summary>
         CutFinished = 1,
-        /// <summary>frame (its first, which names it), crumb, area: a part came off; the largest stays</summary>
+        /// <summary>frame (its first, which names it), crumb, area: a part came off, never the largest</summary>
         PieceOff = 2,
         /// <summary>frame</summary>
         FrameAdded = 3,
@@ -702,7 +702,7 @@ namespace Kiri
         public float Thickness;
         /// <summary>kg/m^3, above 0</summary>
         public float Density;
-        /// <summary>1/s, 0 or more: velocities fade as exp(-airDamping t)</summary>
+        /// <summary>1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)</summary>
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
@@ -816,7 +816,7 @@ namespace Kiri
         /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
         /// Default 0.</summary>
         public Flag SelfContact;
-        /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
+        /// <summary>for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;

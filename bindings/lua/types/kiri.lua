@@ -166,7 +166,7 @@ kiri.DRAW_ALL = 2047
 ---@field poissonsRatio? number # 0 to below 0.5
 ---@field thickness? number # m, above 0
 ---@field density? number # kg/m^3, above 0
----@field airDamping? number # 1/s, 0 or more: velocities fade as exp(-airDamping t)
+---@field airDamping? number # 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
 ---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 ---@field yieldStress? number # Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
@@ -217,7 +217,7 @@ kiri.DRAW_ALL = 2047
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
 ---@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 ---@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
----@field collisionPoints? integer # spread evenly over the sheet, at least one in every piece; default 0: none
+---@field collisionPoints? integer # for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field model? integer # KIRI_MODEL_..., default KIRI_MODEL_LINKS
@@ -619,7 +619,7 @@ function kiri.defaultWorldDef(def) end
 ---@return boolean # work is left for later ticks
 function World:tick(dt, substeps) end
 
---- Returns why the last function that changes the world failed, in a line; "": it did not. Valid until the next one.
+--- Returns the line of the last function that changes the world, if it failed; else "". Valid until the next one.
 ---@return string
 function World:getLastError() end
 
@@ -1030,8 +1030,9 @@ function Frame:getPiece() end
 ---@return kiri.Sheet?
 function Frame:detachPiece() end
 
---- Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on a cut
---- is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of zeros.
+--- Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles stay
+--- with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all of its
+--- sheet.
 ---@return boolean # work is left for later ticks
 function Frame:destroyPiece() end
 
@@ -1191,7 +1192,7 @@ function Frame:applyForce(force, torque) end
 function Sheet:applyForce(restPoint, force, torque) end
 
 --- Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
---- included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+--- included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@param forcePerLength number[]|ffi.cdata*
@@ -1230,14 +1231,16 @@ function Sheet:createPin(def) end
 function Pin:destroy() end
 
 --- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
---- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+--- outside.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin
 function Sheet:clampLine(from, to) end
 
 --- Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its material,
---- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no material.
+--- as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends equal, or far
+--- outside.
 ---@param from number[]|ffi.cdata*
 ---@param to number[]|ffi.cdata*
 ---@return kiri.Pin

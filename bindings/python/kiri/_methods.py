@@ -411,7 +411,7 @@ class Sheet:
 
     def apply_line_load(self, start: Numbers, end: Numbers, force_per_length: Numbers) -> int:
         """Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
-        included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+        included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of kiriSheet_ClampLine.
         """
         return self.world.call('kiriSheet_ApplyLineLoad', self.id, core.vector(start, 2), core.vector(end, 2), core.vector(force_per_length, 3))
 
@@ -434,15 +434,15 @@ class Sheet:
 
     def clamp_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
         """Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-        material.
+        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends
+        equal, or far outside.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_ClampLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
     def hinge_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
         """Hold a straight line of the rest plane, at its rest length. A clamp holds the place and direction of its
-        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: equal ends, or no
-        material.
+        material, as a vice does; a hinge only the place (manual, sheets). KIRI_ERROR_ARGUMENT: no material; ends
+        equal, or far outside.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_HingeLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
@@ -523,9 +523,9 @@ class Frame:
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 
     def destroy_piece(self) -> int:
-        """Removes the piece with this frame at once: ids of its frames and pins are stale. KIRI_PENDING: while work on
-        a cut is pending its triangles stay with three equal corners, and kiriCounts counts it, with a state of
-        zeros.
+        """Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is pending its triangles
+        stay with three equal corners, and kiriCounts counts it, with a state of zeros. KIRI_ERROR_STATE: it is all
+        of its sheet.
         """
         return self.world.call('kiriFrame_DestroyPiece', self.id)
 

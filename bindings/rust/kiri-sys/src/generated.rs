@@ -52,7 +52,7 @@ pub const KIRI_MOST_NOTE_BYTES: i32 = 1048576;
 
 /// cut: all of it is in the mesh; the id is stale from now on
 pub const KIRI_EVENT_CUT_FINISHED: i32 = 1;
-/// frame (its first, which names it), crumb, area: a part came off; the largest stays
+/// frame (its first, which names it), crumb, area: a part came off, never the largest
 pub const KIRI_EVENT_PIECE_OFF: i32 = 2;
 /// frame
 pub const KIRI_EVENT_FRAME_ADDED: i32 = 3;
@@ -374,7 +374,7 @@ pub struct kiriMaterial {
     pub thickness: f32,
     /// kg/m^3, above 0
     pub density: f32,
-    /// 1/s, 0 or more: velocities fade as exp(-airDamping t)
+    /// 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
@@ -498,7 +498,7 @@ pub struct kiriSheetDef {
     /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
     /// and limits (contact). Default 0.
     pub selfContact: i32,
-    /// spread evenly over the sheet, at least one in every piece; default 0: none
+    /// for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
     pub collisionPoints: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
@@ -1076,8 +1076,8 @@ unsafe extern "C" {
     /// frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were
     /// stopped.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
-    /// Returns why the last function that changes the world failed, in a line; "": it did not.
-    /// Valid until the next one.
+    /// Returns the line of the last function that changes the world, if it failed; else "". Valid
+    /// until the next one.
     pub fn kiriWorld_GetLastError(world: *const kiriWorld) -> *const c_char;
     /// Moves the origin of the world to a point (m), as large worlds need: subtracts it from all
     /// positions. Nothing wakes. Returned arrays keep the old positions until the next tick.
@@ -1289,9 +1289,9 @@ unsafe extern "C" {
     /// sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet (manual,
     /// cutting).
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
-    /// Removes the piece with this frame at once: ids of its frames and pins are stale.
-    /// KIRI_PENDING: while work on a cut is pending its triangles stay with three equal corners,
-    /// and kiriCounts counts it, with a state of zeros.
+    /// Removes the piece with this frame at once, with its pins. KIRI_PENDING: while a cut is
+    /// pending its triangles stay with three equal corners, and kiriCounts counts it, with a state
+    /// of zeros. KIRI_ERROR_STATE: it is all of its sheet.
     pub fn kiriFrame_DestroyPiece(world: *mut kiriWorld, frame: kiriFrame) -> kiriResult;
     /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet:
     /// all or none. KIRI_PENDING: some are pending, all in a sheet together. detached\[i\]: the
@@ -1381,8 +1381,8 @@ unsafe extern "C" {
     /// torque (N m).
     pub fn kiriSheet_ApplyForce(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, force: *const f32, torque: *const f32) -> kiriResult;
     /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
-    /// material, edges included. Along a cut each lip gets half. The ends differ.
-    /// KIRI_ERROR_ARGUMENT: the line meets no material.
+    /// material, edges included. Along a cut each lip gets half. KIRI_ERROR_ARGUMENT: as of
+    /// kiriSheet_ClampLine.
     pub fn kiriSheet_ApplyLineLoad(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, forcePerLength: *const f32) -> kiriResult;
     /// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
     pub fn kiriSheet_ApplyPressure(world: *mut kiriWorld, sheet: kiriSheet, pressure: f32) -> kiriResult;
@@ -1403,11 +1403,11 @@ unsafe extern "C" {
     pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
-    /// KIRI_ERROR_ARGUMENT: equal ends, or no material.
+    /// KIRI_ERROR_ARGUMENT: no material; ends equal, or far outside.
     pub fn kiriSheet_ClampLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, clamp: *mut kiriPin) -> kiriResult;
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
-    /// KIRI_ERROR_ARGUMENT: equal ends, or no material.
+    /// KIRI_ERROR_ARGUMENT: no material; ends equal, or far outside.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
     /// Set the target of the pin's point, or of the middle of its line (m, world), and the rotation
     /// of a line's material (columns: directions of u, v, normal; planar: about the normal), for

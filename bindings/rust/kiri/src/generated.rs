@@ -234,7 +234,7 @@ pub const MOST_NOTE_BYTES: i32 = 1048576;
 pub enum EventType {
     /// cut: all of it is in the mesh; the id is stale from now on
     CutFinished = 1,
-    /// frame (its first, which names it), crumb, area: a part came off; the largest stays
+    /// frame (its first, which names it), crumb, area: a part came off, never the largest
     PieceOff = 2,
     /// frame
     FrameAdded = 3,
@@ -792,7 +792,7 @@ pub struct Material {
     pub thickness: f32,
     /// kg/m^3, above 0
     pub density: f32,
-    /// 1/s, 0 or more: velocities fade as exp(-`air_damping` t)
+    /// 1/s, 0 or more: velocities fade as exp(-`air_damping` t) (manual, sheets)
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
@@ -988,7 +988,7 @@ pub struct SheetDef<'a> {
     /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
     /// Manual: rules and limits (contact). Default 0.
     pub self_contact: bool,
-    /// spread evenly over the sheet, at least one in every piece; default 0: none
+    /// for [`Sheet::set_contacts`]: spread evenly, at least one in every piece; default 0: none
     pub collision_points: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
@@ -2276,7 +2276,7 @@ pub enum Event {
         /// Cut.
         cut: Cut,
     },
-    /// frame (its first, which names it), crumb, area: a part came off; the largest stays
+    /// frame (its first, which names it), crumb, area: a part came off, never the largest
     PieceOff {
         /// Sheet.
         sheet: Sheet,
@@ -3139,8 +3139,8 @@ impl Sheet {
     }
 
     /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
-    /// material, edges included. Along a cut each lip gets half. The ends differ.
-    /// [`ResultCode::ErrorArgument`]: the line meets no material.
+    /// material, edges included. Along a cut each lip gets half. [`ResultCode::ErrorArgument`]: as
+    /// of [`Sheet::clamp_line`].
     pub fn apply_line_load(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>, force_per_length: impl Into<[f32; 3]>) -> Result<()> {
         let from: [f32; 2] = from.into();
         let to: [f32; 2] = to.into();
@@ -3186,7 +3186,7 @@ impl Sheet {
 
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
-    /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
+    /// [`ResultCode::ErrorArgument`]: no material; ends equal, or far outside.
     pub fn clamp_line(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>) -> Result<Pin> {
         let from: [f32; 2] = from.into();
         let to: [f32; 2] = to.into();
@@ -3198,7 +3198,7 @@ impl Sheet {
 
     /// Hold a straight line of the rest plane, at its rest length. A clamp holds the place and
     /// direction of its material, as a vice does; a hinge only the place (manual, sheets).
-    /// [`ResultCode::ErrorArgument`]: equal ends, or no material.
+    /// [`ResultCode::ErrorArgument`]: no material; ends equal, or far outside.
     pub fn hinge_line(self, world: &mut World, from: impl Into<[f32; 2]>, to: impl Into<[f32; 2]>) -> Result<Pin> {
         let from: [f32; 2] = from.into();
         let to: [f32; 2] = to.into();
@@ -3309,9 +3309,9 @@ impl Frame {
         Ok(Sheet::from_raw(detached))
     }
 
-    /// Removes the piece with this frame at once: ids of its frames and pins are stale.
-    /// [`ResultCode::Pending`]: while work on a cut is pending its triangles stay with three equal
-    /// corners, and [`Counts`] counts it, with a state of zeros.
+    /// Removes the piece with this frame at once, with its pins. [`ResultCode::Pending`]: while a
+    /// cut is pending its triangles stay with three equal corners, and [`Counts`] counts it, with a
+    /// state of zeros. [`ResultCode::ErrorState`]: it is all of its sheet.
     pub fn destroy_piece(self, world: &mut World) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world, "Frame::destroy_piece")?;
