@@ -1063,7 +1063,8 @@ function Sheet:getMesh(mesh)
     return mesh
 end
 
---- Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
+--- Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
+--- (recipes).
 function Sheet:getDirty(sinceRevision, dirty)
     local world = self.world
     dirty = dirty or new.kiriDirty()

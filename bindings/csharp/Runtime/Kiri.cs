@@ -952,7 +952,8 @@ namespace Kiri
             return new MeshView(World, meshValue);
         }
 
-        /// <summary>Gets the changes since a revision; the whole mesh if the revision is too old, or 0.</summary>
+        /// <summary>Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
+        /// (recipes).</summary>
         public Dirty GetDirty(uint sinceRevision)
         {
             var dirtyValue = new Dirty();

@@ -826,7 +826,8 @@ function kiri.fillRectangle(width, height, columns, rows, restPositions, indices
 ---@return kiri.Mesh
 function Sheet:getMesh(mesh) end
 
---- Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
+--- Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
+--- (recipes).
 ---@param sinceRevision integer
 ---@param dirty? kiri.Dirty
 ---@return kiri.Dirty

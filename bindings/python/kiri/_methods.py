@@ -253,7 +253,9 @@ class Sheet:
         return core.Loan(self.world, 'kiriSheet_GetMesh', 'kiriMesh', self.id)
 
     def dirty(self, since_revision: int) -> Record:
-        """Returns the changes since a revision; the whole mesh if the revision is too old, or 0."""
+        """Returns the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
+        (recipes).
+        """
         return core.record(self.world.get('kiriSheet_GetDirty', 'kiriDirty', self.id, since_revision), self.world)
 
     def solid(self, *names: str, thickness: float = 0.0) -> Record:
