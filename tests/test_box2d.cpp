@@ -66,6 +66,7 @@ TEST(Friction)
     for (bool isFlat : { false, true }) {
         CHECK(!SheetSlides(0.5, law - 1.0, isFlat) && SheetSlides(0.5, law + 1.0, isFlat));
     }
+    CHECK(!CrateSlides(0.2, 10.3) && CrateSlides(0.2, 12.3)); /* the law: 11.3 degrees */
 }
 
 TEST(Motors)

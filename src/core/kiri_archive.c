@@ -1,6 +1,6 @@
 #include "kiri_archive.h"
 
-enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 4 << 20 }; /* memory limit of arrays: for each byte read, plus a constant */
+enum { MEMORY_A_BYTE = 96, MEMORY_FREE = 4 << 20 }; /* memory limit of arrays: for each byte read, plus a constant */
 
 kiriArchive kiriArchive_Measure(void)
 {

@@ -57,8 +57,8 @@ static double InertiaOf(const kiriSolver* solver, const kiriContactStep* step)
 
 /* ---- Obstacles that yield ---------------------------------------------------------------------------------------- */
 
-/* Returns the velocity of the obstacle's material at a point, including impulses of sheets in this tick, m/s. */
-static kiriVec3 SurfaceVelocity(const kiriContactStep* step, kiriVec3 point)
+/* Returns the velocity of the obstacle's material at its place, including impulses of sheets in this tick, m/s. */
+static kiriVec3 SurfaceVelocity(const kiriContactStep* step)
 {
     const kiriContactRow* row = step->row;
     const kiriYieldRow* yield = step->yield;
@@ -66,21 +66,20 @@ static kiriVec3 SurfaceVelocity(const kiriContactStep* step, kiriVec3 point)
     if (yield != NULL && row->felt >= 0.0) {
         recoil = kiriVec3_Scale(row->felt, yield->impulse.force);
     } else if (yield != NULL) {
-        kiriVec3 spin = kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment);
-        kiriVec3 round = kiriVec3_Cross(spin, kiriVec3_Sub(point, yield->center));
+        kiriVec3 round = kiriVec3_Cross(kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment), step->arm);
         recoil = kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
     }
     return kiriVec3_Add(row->velocity, recoil);
 }
 
-/* Returns the inverse mass of the obstacle at a point, along a direction, 1/kg. */
-static double InverseMass(const kiriContactStep* step, kiriVec3 point, kiriVec3 along)
+/* Returns the inverse mass of the obstacle at its place, along a direction, 1/kg. */
+static double InverseMass(const kiriContactStep* step, kiriVec3 along)
 {
     const kiriYieldRow* yield = step->yield;
     if (yield == NULL || step->row->felt >= 0.0) {
         return yield == NULL ? 0.0 : step->row->felt;
     }
-    kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
+    kiriVec3 arm = kiriVec3_Cross(step->arm, along);
     return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
 }
 
@@ -141,7 +140,7 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     KIRI_ASSERT(share > 0.0);
     step->start = kiriContact_Point(system, step, poses);
     kiriVec3 off = kiriVec3_Sub(step->start, kiriSystem_Blend(system, all, count, poses));
-    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step, step->start));
+    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     /* A soft contact rests within its reach. A fold may lie deeper: its push may not fall with the depth. */
@@ -171,7 +170,7 @@ static bool OnlyLifts(const kiriContactStep* step)
 static double MeansOf(const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
-    double inverse = InverseMass(step, step->start, step->row->normal);
+    double inverse = InverseMass(step, step->row->normal);
     return inverse > 0.0 ? 0.5 * speed * speed / inverse : 0.0;
 }
 
@@ -245,7 +244,7 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     }
     row->normal = kiriMat3_Mul(*A, row->otherNormal);
     kiriVec3 apart = kiriSystem_Blend(system, all, row->weightCount + row->otherCount, solver->start.data);
-    kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
+    kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->place);
     off = kiriVec3_Across(off, row->otherNormal);
     KIRI_TIMES(n, row->otherCount) {
         others[n].at = kiriVec2_Add(others[n].at, kiriVec2_Make(off.x, off.y));
@@ -263,6 +262,7 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
     KIRI_CLEAR(step);
     step->row = row;
     step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
+    step->arm = step->yield != NULL ? kiriVec3_Sub(row->place, step->yield->center) : step->arm;
     KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_MEMBERS);
     bool recoils = IsSoft(row) && step->yield != NULL && step->yield->inverseMass > 0.0;
     if (recoils && step->yield->place == KIRI_NONE) {
@@ -382,18 +382,21 @@ static double DepthOfPush(const kiriContactStep* step, double push)
     return push < 0.5 * k * d ? kiriRoot(2.0 * push * d / k) : push / k + 0.5 * d;
 }
 
-/* Sets the stiffness: half of the reach stops the motion that goes on. `depth`: its depth. Expects the push of the last
-   step, or what stops that motion. */
+/* Sets the stiffness: half of the reach stops the motion that goes on. `depth`: its depth. Expects the push of the last step, or
+   what stops that motion. Masses of both sides count: else two sides of a light obstacle store energy, and throw it. */
 static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double depth)
 {
     const kiriContactRow* row = step->row;
-    double part = solver->stepping.part, inertia = row->mass / (part * part);
+    double part = solver->stepping.part, inverse = InverseMass(step, row->normal);
+    double inertia = row->mass / (part * part) / (1.0 + row->mass * inverse);
+    double most = inverse > 0.0 ? SOFT_STIFFNESS / (inverse * part * part) : DBL_MAX;
     step->soft = SOFT_SHARE * row->reach;
     double least = row->isFold ? FOLD_STIFFNESS : SOFT_STIFFNESS;
     step->was = kiriVec3_Dot(row->normal, row->force);
     step->stiffness = kiriMax(2.0 * inertia * depth / row->reach, least * inertia);
-    step->stiffness = kiriMax(step->body != NULL ? 2.0 * step->was / row->reach : 0.0, step->stiffness);
-    step->mostStiffness = row->isFold ? step->stiffness : SOFT_GROWTH * step->stiffness;
+    double lasting = step->body != NULL ? 2.0 * step->was / row->reach : 0.0, growth = row->isFold ? 1.0 : SOFT_GROWTH;
+    step->stiffness = kiriMax(kiriMin(lasting, most), step->stiffness);
+    step->mostStiffness = kiriMax(kiriMin(growth * step->stiffness, most), step->stiffness);
     step->grip = step->body != NULL ? GRIP / SOFT_STIFFNESS * step->stiffness : GRIP * inertia;
     step->known = step->was > 0.0 ? step->was : kiriMax(inertia * depth, 0.0);
     step->limit = row->friction * step->known;
@@ -527,9 +530,9 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step)
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->give = soft * InverseMass(step, step->point, row->normal);
+    step->give = soft * InverseMass(step, row->normal);
     step->stiffness = 1.0 / (1.0 / spring + step->give);
-    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, step->point, along));
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, along));
 }
 
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
@@ -542,7 +545,7 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
         if (IsSoft(step->row)) {
             double share = kiriMax(step->body != NULL ? step->yield->pressed : 0, 1), part = solver->stepping.part;
             LinearizeSoft(step, solver->search.isFirst);
-            step->give = part * part * share * InverseMass(step, step->start, step->row->normal);
+            step->give = part * part * share * InverseMass(step, step->row->normal);
             continue;
         }
         SetSprings(solver, step);
@@ -1099,12 +1102,10 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, d
 /* Gives the yield row `times` the impulse of the contact in the step. */
 static void Give(const kiriSolver* solver, const kiriContactStep* step, double times)
 {
-    kiriYieldRow* yield = step->yield;
-    if (yield != NULL) {
+    if (step->yield != NULL) {
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
-        kiriVec3 arm = kiriVec3_Sub(step->point, yield->center);
-        kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
-        kiriWrench_Add(&yield->impulse, -times, &given);
+        kiriWrench given = { impulse, kiriVec3_Cross(step->arm, impulse) };
+        kiriWrench_Add(&step->yield->impulse, -times, &given);
     }
 }
 
@@ -1167,7 +1168,7 @@ static void FindPower(const kiriSolver* solver, const kiriContactStep* step, dou
         kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
         way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
     }
-    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step, step->point));
+    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step));
     *ofSheet = kiriVec3_Dot(push, way);
 }
 
@@ -1239,7 +1240,7 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
         kiriContactRow* row = step->row;
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
         row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step, step->point));
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step));
     }
 }
 

@@ -205,7 +205,6 @@ static double TakeEnergy(double kinetic, double* energy)
 }
 
 #define TRIALS 8
-#define TOLERABLE 0.05 /* of kiriContactSum.means: rounding and rest gain less */
 
 /* Returns the part of the gain that exceeds the kinetic energy without the mean velocity, J. */
 static double Excess(const kiriSolver* solver)
@@ -216,7 +215,7 @@ static double Excess(const kiriSolver* solver)
 static bool IsThrown(const kiriSolver* solver)
 {
     return solver->support == KIRI_SUPPORT_CONTACTS &&
-           Excess(solver) > (solver->touch.isHeldUp ? 0.0 : TOLERABLE * solver->touch.means);
+           Excess(solver) > (solver->touch.isHeldUp ? 0.0 : KIRI_SPARE_MEANS * solver->touch.means);
 }
 
 /* Limits the pushes of contacts. In a step that is far from solved they may be too large, and they determine the mean

@@ -46,7 +46,6 @@ void kiriRecoil_Join(kiriSolver* solver, kiriContactStep* step)
         isNew = *other != body;
     }
     step->body = body;
-    step->arm = kiriVec3_Sub(step->start, body->center);
     if (isNew) {
         KIRI_ASSERT(solver->recoil.bodies.count < solver->recoil.bodies.capacity);
         body->place = KIRI_RECOILS * solver->recoil.bodies.count;

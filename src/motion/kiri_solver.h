@@ -61,7 +61,8 @@ typedef struct kiriContactRow {
                                                           the surface to where the first point is */
     int32_t otherCount;
     kiriVec3 otherNormal; /* the normal in the axes of its first frame, with which it turns */
-    kiriVec3 otherOff;    /* m: offset from the second point to the first one in these axes, to be kept along the surface */
+    kiriVec3 place;       /* m: on the obstacle at the start of the tick, where it feels the forces; of a mutual contact, the offset
+                             from the second point to the first one in these axes, to be kept along the surface */
     int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
     double felt;    /* 1/kg: inverse mass of the yield row at the point, in any direction; below 0: from its mass and
                        inertia */
@@ -431,7 +432,7 @@ typedef struct kiriContactStep {
     kiriContactRow* row;
     kiriYieldRow* yield; /* of the row, or null */
     kiriYieldRow* body;  /* the same if its unknowns are in the system */
-    kiriVec3 arm;        /* m: from the centre of `body` */
+    kiriVec3 arm;        /* m: from the centre of `yield` */
     kiriContactMember members[KIRI_CONTACT_MEMBERS];
     int32_t memberCount, coupledCount; /* the first ones all have blocks of the matrix in common */
     bool isHeld;      /* the host holds half of the frames or more, by weight */
@@ -485,6 +486,8 @@ typedef struct kiriSearch {
     bool isTaken;              /* a part of the last Gauss-Newton step was taken: the strains belong to the poses */
     bool mayFlow;              /* links yield; the first iterations are elastic */
 } kiriSearch;
+
+#define KIRI_SPARE_MEANS 0.05 /* of kiriContactSum.means: rounding and rest gain less */
 
 /* The contacts of a body together. */
 typedef struct kiriContactSum {

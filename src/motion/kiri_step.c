@@ -1247,12 +1247,13 @@ static void TakeAnew(kiriSolver* solver, const kiriSystem* system)
 }
 
 /* Restarts a body from its poses before the step, by backward Euler, if the energy limit would take too much of its
-   motion. Returns false otherwise. */
+   motion. Obstacles in the system may supply a part of theirs. Returns false otherwise. */
 static bool Restart(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSearch* search = &solver->search;
     bool isOver = !(search->now.objective <= search->start.objective * (1.0 + KIRI_ROUNDING) + search->noise);
-    if (solver->energy.gain <= (isOver ? MOST_TAKEN : 1.0) * kiriSolver_MostTaken(solver)) {
+    double own = solver->recoil.bodies.count > 0 ? KIRI_SPARE_MEANS * solver->touch.means : 0.0;
+    if (solver->energy.gain <= (isOver ? MOST_TAKEN : 1.0) * kiriSolver_MostTaken(solver) + own) {
         return false;
     }
     TakeAnew(solver, system);

@@ -619,8 +619,6 @@ static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriContactMember
     return x;
 }
 
-#define LIGHT 30.0 /* samples: lighter bodies have hard contacts, or they are thrown */
-
 static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, double sampleMass, kiriContactRow* row)
 {
     TouchBlend blend = BlendOf(sheet, touch);
@@ -630,13 +628,12 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->velocity = touch->velocity;
     row->friction = touch->friction;
     row->pushSpeed = touch->pushSpeed;
-    double inverse = touch->yield != KIRI_NONE ? sheet->touches.yields.data[touch->yield].inverseMass : 0.0;
-    bool isHard = inverse > 0.0 && (sheet->settings.mechanics.planar || inverse * LIGHT * sampleMass > 1.0);
-    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !isHard) {
+    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE)) {
         row->mass = sampleMass;
         row->reach = 0.5 * sheet->settings.contactThickness;
     }
     row->yield = touch->yield;
+    row->place = touch->on;
     row->felt = touch->felt;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
     row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_MEMBERS);
@@ -687,7 +684,7 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
     const kiriMat3* A = &other->frames.data[row->otherWeights[0].frame].A;
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(apart, touch->seen));
     row->otherNormal = kiriMat3_MulTransposed(A, row->normal);
-    row->otherOff = kiriMat3_MulTransposed(A, apart);
+    row->place = kiriMat3_MulTransposed(A, apart);
     return true;
 }
 
