@@ -190,7 +190,7 @@ FallOutcome MeasureFall(double ratio, bool isFlat, double start)
     b2Body* crate = rig.AddBox(0.0f, static_cast<float>(start), 0.2f, 0.2f, mass, 0.5f);
     crate->SetSleepingAllowed(false);
     b2Vec2 given(0.0f, 0.0f), first = SheetMomentum(rig);
-    FallOutcome outcome = { 0.0, 0.0, -1.0 };
+    FallOutcome outcome = { 0.0, 0.0, -1.0, -1.0 };
     float arrival = 0.0f; /* N s: the most that crate or banner had */
     for (int i = 0; i < 180; ++i) {
         rig.Tick();
@@ -200,6 +200,7 @@ FallOutcome MeasureFall(double ratio, bool isFlat, double start)
         arrival = std::max({ arrival, mass * Rig::Velocity(crate).Length(), SheetMomentum(rig).Length() });
         outcome.momentumError = std::max<double>(outcome.momentumError, lost.Length());
         outcome.highest = std::max<double>(outcome.highest, Rig::Place(crate).y - start);
+        outcome.deepest = std::max(outcome.deepest, DeepestIn(rig, crate));
     }
     outcome.momentumError /= arrival;
     outcome.depth = DeepestIn(rig, crate);

@@ -14,6 +14,7 @@ HitOutcome MeasureHit(double ratio, bool isFlat, int substeps);
    end (m). */
 struct FallOutcome {
     double momentumError, depth, highest; /* m: how far the crate was thrown above where it fell from */
+    double deepest;                       /* m: of any tick */
 };
 FallOutcome MeasureFall(double ratio, bool isFlat, double start = 0.4);
 

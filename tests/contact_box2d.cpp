@@ -25,7 +25,7 @@ template <typename Slides> static void MeasureAngle(const char* name, double fri
 /* The worst of several falls on a cloth: these are chaotic, and one from a millimetre higher ends differently. */
 static FallOutcome MeasureFalls(double ratio, bool isFlat)
 {
-    FallOutcome worst = { 0.0, 0.0, -1.0 };
+    FallOutcome worst = { 0.0, 0.0, -1.0, -1.0 };
     for (int k = 0; k < (isFlat ? 1 : 8); ++k) {
         FallOutcome fall = MeasureFall(ratio, isFlat, 0.4 + 0.001 * k);
         worst.momentumError = std::max(worst.momentumError, fall.momentumError);

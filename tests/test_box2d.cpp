@@ -35,7 +35,7 @@ FIGURE(LightCratesAreNotThrown)
         for (double start : { 0.400, 0.401, 0.404, 0.405, 0.406 }) {
             FallOutcome fall = MeasureFall(ratio, false, start);
             CHECK(fall.highest < 0.0);
-            CHECK(fall.depth > -0.02 && fall.depth < 0.02);
+            CHECK(fall.depth > -0.02 && fall.deepest < 0.005); /* it is found before it is inside */
         }
     }
 }

@@ -217,6 +217,13 @@ void KiriBox2d::Find(kiriSheet sheet, float dt)
     float lower[3] = { 0.0f }, upper[3] = { 0.0f };
     Check(kiriSheet_GetReach(kiri, sheet, dt, lower, upper));
     b2AABB box = { 1.0f / metres * b2Vec2(lower[0], lower[def.up]), 1.0f / metres * b2Vec2(upper[0], upper[def.up]) };
+    /* Bodies come to the sheet, too: look as far as the fastest gets. */
+    float far = 0.0f;
+    for (b2Body* body = bodies->GetBodyList(); body != nullptr; body = body->GetNext()) {
+        far = std::max(far, dt * (body->GetLinearVelocity() + dt * bodies->GetGravity()).Length());
+    }
+    box.lowerBound -= b2Vec2(far, far);
+    box.upperBound += b2Vec2(far, far);
     Near near;
     bodies->QueryAABB(&near, box);
     for (b2Fixture* fixture : near.fixtures) {
