@@ -21,8 +21,7 @@ static inline uint64_t Look_Mesh(uint64_t hash, const kiriMesh* mesh)
     hash = Look_Bytes(hash, mesh->restPositions, 8 * vertices);
     hash = Look_Bytes(hash, mesh->indices, 12 * triangles);
     hash = Look_Bytes(hash, mesh->sourceTriangles, 4 * vertices);
-    hash = Look_Bytes(hash, mesh->sourceWeights, 12 * vertices);
-    return Look_Bytes(hash, &mesh->revision, sizeof(mesh->revision));
+    return Look_Bytes(hash, mesh->sourceWeights, 12 * vertices);
 }
 
 static inline uint64_t Look_Reaction(uint64_t hash, const double force[3], const double torque[3])

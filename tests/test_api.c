@@ -879,7 +879,7 @@ static void CutOn(Host* host, kiriCut cut, uint32_t* seed)
     OK(Host_Tick(host, 0.01f, 1));
 }
 
-/* A host that asks for changes only in every Nth tick keeps a copy of the mesh. */
+/* A host that asks for changes only in every Nth tick keeps a copy of the mesh, also where it goes back to cut otherwise. */
 static void CopyEvery(int32_t every)
 {
     START_HOST(own);
@@ -890,8 +890,14 @@ static void CopyEvery(int32_t every)
     static uint16_t indices[3 * MOST];
     uint32_t revision = 0, seed = 5;
     kiriCut cut = World_BeginCut(host->world, sheet, (float[]){ 0.1f, 0.5f });
+    Bytes past = World_Write(host->world, kiriWorld_Snapshot);
+    bool isWhole = true;
     for (int tick = 0; tick < 50; ++tick) {
         kiriDirty dirty;
+        if (tick % 7 == 3) {
+            OK(kiriWorld_Restore(host->world, past.data, past.size));
+            isWhole = true;
+        }
         if (tick % every != 0) {
             CutOn(host, cut, &seed);
             continue;
@@ -899,7 +905,8 @@ static void CopyEvery(int32_t every)
         OK(kiriSheet_GetDirty(host->world, sheet, revision, &dirty));
         kiriMesh mesh = Host_Mesh(host, sheet);
         assert_true(mesh.vertexCount <= MOST && mesh.triangleCount <= MOST);
-        assert_true(tick == 0 || dirty.newTriangles.first > 0);
+        assert_true((dirty.newTriangles.first == 0) == isWhole);
+        isWhole = false;
         revision = dirty.revision;
         const kiriRange vertices[2] = { dirty.newVertices, dirty.oldVertices };
         const kiriRange triangles[2] = { dirty.newTriangles, dirty.oldTriangles };
@@ -924,6 +931,7 @@ static void CopyEvery(int32_t every)
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyIndices16(host->world, sheet, 0, mesh.triangleCount + 1, indices));
         CutOn(host, cut, &seed);
     }
+    Bytes_Free(&past);
 }
 
 TEST(Copies)

@@ -475,7 +475,7 @@ typedef struct kiriDirty {
     uint32_t revision;                   /* for the next call */
 } kiriDirty;
 
-/* Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore (recipes). */
+/* Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore. */
 KIRI_API kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision,
                                        kiriDirty* dirty);
 

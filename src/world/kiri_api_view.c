@@ -21,14 +21,15 @@ kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* 
     mesh->sourceWeights = surface->sourceWeights.data;
     mesh->vertexCount = surface->vertexCount;
     mesh->triangleCount = surface->triangleCount;
-    mesh->revision = surface->revision;
+    mesh->revision = world->loadedAt + surface->revision;
     return KIRI_OK;
 }
 
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty)
 {
     KIRI_READS_OF(sheet, dirty);
-    kiriSurface_GetDirty(&found->seen.surface, sinceRevision, dirty);
+    kiriSurface_GetDirty(&found->seen.surface, sinceRevision - world->loadedAt, dirty);
+    dirty->revision += world->loadedAt;
     return KIRI_OK;
 }
 

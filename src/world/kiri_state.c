@@ -383,6 +383,7 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         if (sheet != NULL && shown != NULL) {
             kiriMemory_AdoptAll(shown, &sheet->shown);
+            world->mostRevision = kiriMax(sheet->seen.surface.revision, world->mostRevision);
         }
         kiriSheet_Delete(sheet, &world->memory);
     }
@@ -450,6 +451,7 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     world->recorder = was.recorder;
     world->begun = was.begun;
     world->stage = was.stage;
+    world->loadedAt = was.loadedAt + was.mostRevision;
     world->isBusy = was.isBusy;
     memcpy(world->errorLine, was.errorLine, sizeof(was.errorLine));
     kiriMemory_AdoptAll(&world->memory, &made->memory);

@@ -90,6 +90,7 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
     kiriPool_Remove(&world->sheetIds, sheet->id);
     KIRI_KEEP_IF(kiriSheetData*, at, world->sheets, *at != sheet);
     kiriMemory_AdoptAll(&world->retired, &sheet->shown);
+    world->mostRevision = kiriMax(sheet->seen.surface.revision, world->mostRevision);
     kiriSheet_Delete(sheet, &world->memory);
 }
 

@@ -231,6 +231,8 @@ struct kiriWorld {
     int64_t begun; /* calls of kiriWorld_Tick, including refused ones: for kiriPast */
     int32_t stage; /* current stage of the tick, or KIRI_NONE */
     double stageStart;
+    uint32_t loadedAt; /* a host gets revisions of surfaces from here on: each load raises it, and no number comes again */
+    uint32_t mostRevision; /* of the surfaces of sheets that went since the last load */
     char errorLine[256]; /* of the last function that changes the world */
 
     /* State of the calls in progress, which limits the calls that callbacks may make, see kiri_call.h. */
