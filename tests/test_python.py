@@ -544,6 +544,7 @@ def test_python_finds_mistakes():
     for wrong in ("ab", [("a", 0.5)], [b"ab"], ["0.1", "0.2"]):
         raises(TypeError, sheet.begin_cut, wrong)
     assert "did you mean frameCount?" in str(raises(TypeError, world.create_rectangle, 1, 1, 8, 8, framecount=9))
+    assert "material()" in str(raises(TypeError, world.create_rectangle, 1, 1, 8, 8, material=kiri.MaterialPreset.PAPER))
     assert abs(sheet.settings().material.thickness - 16e-6) < 1e-9
     cut = sheet.begin_cut((-0.1, 0.5))
     cut.extend([(1.1, 0.5)])

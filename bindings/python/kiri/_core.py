@@ -147,6 +147,8 @@ def fill(world, struct, values, kept):
         field = fields[name].type
         if isinstance(value, types.SimpleNamespace):  # a record, such as material() returns
             value = vars(value)
+        if field.kind == "struct" and not isinstance(value, (dict, list, tuple, ffi.CData)):
+            raise TypeError(f"{kind.cname}.{name} takes a dict or a record, as material() returns, not {value!r}")
         if isinstance(value, dict) and field.kind == "struct":
             fill(world, getattr(struct, name), value, kept)
             continue
