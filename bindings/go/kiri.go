@@ -1815,7 +1815,7 @@ var poolSheetGetDirty pool[struct {
 	dirty Dirty
 }]
 
-// Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore (recipes).
+// Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore.
 func (s Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
 	var made0 Dirty
 	if err := s.World.check(); err != nil {

@@ -1419,8 +1419,7 @@ export class Sheet {
     setFold(index: number, stiffness: number, restAngle: number): ResultCode;
     /** Gets the arrays, without a copy. */
     getMesh(into?: Mesh): Mesh;
-    /** Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
-     *  (recipes). */
+    /** Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore. */
     getDirty(sinceRevision: number, into?: Dirty): Dirty;
     /** Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more. KIRI_ERROR_STATE: no normals. */
     copyVertices(first: number, count: number, positions?: Float32Array | null, positionStride?: number, normals?: Float32Array | null, normalStride?: number): ResultCode;

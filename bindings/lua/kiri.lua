@@ -1063,8 +1063,7 @@ function Sheet:getMesh(mesh)
     return mesh
 end
 
---- Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
---- (recipes).
+--- Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore.
 function Sheet:getDirty(sinceRevision, dirty)
     local world = self.world
     dirty = dirty or new.kiriDirty()

@@ -952,8 +952,7 @@ namespace Kiri
             return new MeshView(World, meshValue);
         }
 
-        /// <summary>Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
-        /// (recipes).</summary>
+        /// <summary>Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore.</summary>
         public Dirty GetDirty(uint sinceRevision)
         {
             var dirtyValue = new Dirty();

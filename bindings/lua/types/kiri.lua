@@ -826,8 +826,7 @@ function kiri.fillRectangle(width, height, columns, rows, restPositions, indices
 ---@return kiri.Mesh
 function Sheet:getMesh(mesh) end
 
---- Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
---- (recipes).
+--- Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore.
 ---@param sinceRevision integer
 ---@param dirty? kiri.Dirty
 ---@return kiri.Dirty

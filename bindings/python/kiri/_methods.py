@@ -253,9 +253,7 @@ class Sheet:
         return core.Loan(self.world, 'kiriSheet_GetMesh', 'kiriMesh', self.id)
 
     def dirty(self, since_revision: int) -> Record:
-        """Returns the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a load or restore
-        (recipes).
-        """
+        """Returns the changes since a revision; the whole mesh if it is 0, too old, or of before a load or restore."""
         return core.record(self.world.get('kiriSheet_GetDirty', 'kiriDirty', self.id, since_revision), self.world)
 
     def solid(self, *names: str, thickness: float = 0.0) -> Record:

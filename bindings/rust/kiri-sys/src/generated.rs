@@ -1184,8 +1184,8 @@ unsafe extern "C" {
     pub fn kiriFillRectangle(width: f32, height: f32, columns: i32, rows: i32, restPositions: *mut f32, indices: *mut i32) -> kiriResult;
     /// Gets the arrays, without a copy.
     pub fn kiriSheet_GetMesh(world: *const kiriWorld, sheet: kiriSheet, mesh: *mut kiriMesh) -> kiriResult;
-    /// Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a
-    /// load or restore (recipes).
+    /// Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load
+    /// or restore.
     pub fn kiriSheet_GetDirty(world: *const kiriWorld, sheet: kiriSheet, sinceRevision: u32, dirty: *mut kiriDirty) -> kiriResult;
     /// Copies 3 floats each; positions or normals null: none. Strides: 12 bytes or more.
     /// KIRI_ERROR_STATE: no normals.

@@ -2798,8 +2798,8 @@ impl Sheet {
         Ok(Mesh::from_raw(&mesh))
     }
 
-    /// Gets the changes since a revision; the whole mesh if it is too old, or 0: give 0 after a
-    /// load or restore (recipes).
+    /// Gets the changes since a revision; the whole mesh if it is 0, too old, or of before a load
+    /// or restore.
     pub fn dirty(self, world: &World, since_revision: u32) -> Result<Dirty> {
         let mut dirty = MaybeUninit::<sys::kiriDirty>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
