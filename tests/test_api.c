@@ -543,7 +543,9 @@ TEST(EachArgument)
             }
         }
     }
-    assert_string_equal(kiriWorld_GetLastError(NULL), "");
+    kiriSheet sheet = s.given.sheet;
+    assert_int_equal(kiriCreateRectangle(NULL, 1.0f, 1.0f, 4, 4, NULL, &sheet), KIRI_ERROR_ARGUMENT);
+    assert_true(sheet == 0 && kiriWorld_GetLastError(NULL)[0] == '\0');
 }
 
 /* The arguments are valid: EachArgument is refused for the one that it makes wrong. */

@@ -92,9 +92,11 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
 kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                const kiriSheetDef* def, kiriSheet* sheet)
 {
+    if (sheet != NULL) {
+        *sheet = 0;
+    }
     KIRI_PREPARES(world);
     KIRI_CHECK_OUT(sheet);
-    *sheet = 0;
     kiriSheetDef filled;
     kiriDefaultSheetDef(&filled);
     if (def != NULL) {

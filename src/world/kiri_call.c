@@ -613,8 +613,19 @@ static kiriResult CheckArgument(const kiriCall* call, int i, kiriFault* fault)
 
 bool kiriCall_Begin(kiriCall* call)
 {
+    static const uint8_t none[KIRI_CALL_ARGUMENTS] = { KIRI_ARGUMENT_NONE };
     kiriWorld* world = call->world;
     kiriFault fault;
+    const uint8_t* kinds = call->number == KIRI_NONE ? none : kiriCallRows[call->number].kinds;
+    KIRI_ASSERT(call->number >= KIRI_NONE && call->number < KIRI_CALL_COUNT);
+    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) { /* failed calls return ids of 0 */
+        kiriForm form = kiriArguments[kinds[i]].form;
+        const void* const* at = &call->arguments[i];
+        int32_t count = form == KIRI_FORM_NEW ? 1 : form == KIRI_FORM_NEWS ? *(const int32_t*)at[-1] : 0;
+        if (count > 0 && at[0] != NULL) {
+            memset((void*)at[0], 0, (size_t)count * sizeof(uint32_t));
+        }
+    }
     if (world == NULL || world->isBusy || kiriCall_IsRead(world)) {
         call->result = world == NULL ? KIRI_ERROR_ARGUMENT : kiriCall_Refuse(world, call->function);
         return false;
@@ -624,16 +635,7 @@ bool kiriCall_Begin(kiriCall* call)
     if (call->number == KIRI_NONE) {
         return true;
     }
-    KIRI_ASSERT(call->number >= 0 && call->number < KIRI_CALL_COUNT && !world->recorder.isOpen);
-    const uint8_t* kinds = kiriCallRows[call->number].kinds;
-    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) { /* failed calls return ids of 0 */
-        kiriForm form = kiriArguments[kinds[i]].form;
-        const void* const* at = &call->arguments[i];
-        int32_t count = form == KIRI_FORM_NEW ? 1 : form == KIRI_FORM_NEWS ? *(const int32_t*)at[-1] : 0;
-        if (count > 0 && at[0] != NULL) {
-            memset((void*)at[0], 0, (size_t)count * sizeof(uint32_t));
-        }
-    }
+    KIRI_ASSERT(!world->recorder.isOpen);
     for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE && call->result == KIRI_OK; ++i) {
         call->result = CheckArgument(call, i, &fault);
     }
