@@ -474,14 +474,16 @@ static void SetOpenEnd(const LinkUpdate* u, kiriLinkEnd* end, kiriVec2 at, int32
 
 static const double kiriFarAhead = 1e30;
 
-/* Returns how far ahead the site of a region is as near as the two, if it is not hidden; beyond that it is nearer. */
+/* Returns how far ahead the site of a region is as near as the two, if it is not hidden; beyond that it is nearer. A site
+   in a row with the two, between them, is nearer all along. */
 static double LimitBy(const EndSearch* s, int32_t k)
 {
     kiriVec2 a = SiteAt(s->u, s->near.region[0]), b = SiteAt(s->u, s->near.region[k]);
     kiriVec2 way = kiriVec2_Sub(b, a), half = kiriVec2_Sub(kiriVec2_Scale(0.5, kiriVec2_Add(a, b)), s->line.middle);
-    double pace = s->ahead * kiriVec2_Dot(way, s->line.tangent);
-    return s->reach[k].state != REACH_HIDDEN && pace > 1e-9 * kiriVec2_Length(way) ? kiriVec2_Dot(half, way) / pace
-                                                                                   : kiriFarAhead;
+    double pace = s->ahead * kiriVec2_Dot(way, s->line.tangent), least = 1e-9 * kiriVec2_Length(way);
+    double farther = kiriVec2_Dot(half, way);
+    bool isFar = s->reach[k].state == REACH_HIDDEN || pace < (farther > 0.0 ? least : -least);
+    return isFar ? kiriFarAhead : farther / kiriMax(pace, least);
 }
 
 /* Is the site of a region seen from before the end? */
