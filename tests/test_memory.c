@@ -193,20 +193,26 @@ TEST(ScarceMemoryIsASpentBudget)
     assert_in_range(ticks[1], ticks[0], 3 * ticks[0]);
 }
 
-/* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take
-   the most; and of one with fewer. The detail layer of cotton takes 121. */
+/* Data that are stored twice show in the sum; also after six cuts, for which arrays grow. Cells take the most where the
+   grid is as fine as the mesh. The detail layer of cotton takes 121. */
 TEST(BytesOfVertices)
 {
     static const struct {
         int32_t grid;
-        double most;
-    } cases[] = { { 64, 970.0 }, { 16, 530.0 } };
+        double most, cut;
+    } cases[] = { { 64, 970.0, 1200.0 }, { 16, 530.0, 700.0 } };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         START_HOST(host);
         kiriSheetDef def = DefaultSheet();
         def.gridResolution = cases[i].grid;
         int64_t before = host.bytes;
-        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);
         assert_true((double)(host.bytes - before) < cases[i].most * 65.0 * 65.0);
+        for (int k = 0; k < 6; ++k) {
+            kiriCut cut;
+            OK(kiriSheet_Cut(host.world, sheet, (float[]){ 0.1f + 0.1f * (float)k, 0.1f, 0.13f + 0.1f * (float)k, 0.8f }, 2, &cut));
+            Host_Tick(&host, 1.0f / 60.0f, 1);
+        }
+        assert_true((double)(host.bytes - before) < cases[i].cut * Host_Counts(&host, sheet).vertices);
     }
 }

@@ -45,8 +45,8 @@ static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t 
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
     int64_t has = kiriArray_GetHeader(array).capacity;
-    /* An eighth more even at first, so that the first cut does not copy the whole sheet. */
-    int64_t capacity = kiriMax(need + need / 8, 2 * has);
+    /* An eighth more even at first, so that the first cut does not copy the whole sheet. Small arrays double. */
+    int64_t capacity = kiriMax(need + need / 8, has < 4096 ? 2 * has : has + has / 4);
     capacity = kiriMin(INT32_MAX, kiriMax(8, capacity));
     return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes, NULL));
 }
