@@ -614,47 +614,7 @@ TEST(Saves)
     }
 }
 
-TEST(Replay)
-{
-    Tape tape;
-    Tape_Start(&tape);
-    kiriSheetDef def = Host_SmallDef();
-    Pair pair = Pair_Make(&tape.host, &def, 6, 9);
-    for (int32_t tick = 0; tick < 5; ++tick) {
-        Tape_Tick(&tape);
-    }
-    OK(kiriDestroySeam(tape.host.world, pair.seam));
-    Tape_Tick(&tape);
-    Tape_Stop(&tape);
-    Tape_PlayAll(&tape);
-}
-
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
-
-TEST(Memory)
-{
-    for (int32_t call = 0; call >= 0; ++call) {
-        START_HOST(host);
-        kiriSheetDef def = Host_SmallDef();
-        Pair pair = Pair_Make(&host, &def, 4, 5);
-        kiriSeamDef seam = SeamDef(pair.b, rightEdge, pair.a, leftEdge, 2);
-        kiriSeam made;
-        uint64_t hash = Host_Hash(&host);
-        host.failAt = host.calls + call;
-        host.failOnce = true;
-        kiriResult result = kiriCreateSeam(host.world, &seam, &made);
-        if (result == KIRI_OK) {
-            result = kiriWorld_Tick(host.world, dt, 2);
-        } else {
-            assert_true(made == 0 && Host_Hash(&host) == hash);
-        }
-        Host_Validate(&host);
-        assert_true(result == KIRI_OK || result == KIRI_ERROR_MEMORY);
-        call = host.refused > 0 ? call : -2;
-        host.failAt = -1;
-        OK(Host_Tick(&host, dt, 2));
-    }
-}
 
 static void Refused(Host* host, const kiriSeamDef* def, kiriResult result, const char* line)
 {
