@@ -36,8 +36,8 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, i
         if (kiriGrid_CellOfVertex(grid, v) == cell && kiriMesh_FindFan(mesh, v, &first, &last) &&
             IsSlitEnd(mesh, first, last)) {
             int32_t before = kiriMesh_Head(mesh, first);
-            end->at = kiriMesh_Local(mesh, kiriMesh_At(mesh, v));
-            end->along = kiriVec2_Normalize(kiriVec2_Sub(end->at, kiriMesh_Local(mesh, kiriMesh_At(mesh, before))));
+            end->at = kiriMesh_LocalOf(mesh, v);
+            end->along = kiriVec2_Normalize(kiriVec2_Sub(end->at, kiriMesh_LocalOf(mesh, before)));
             end->cell = cell;
             return true;
         }

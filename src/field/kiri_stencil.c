@@ -206,29 +206,18 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
     steps[k] = step;
 }
 
-/* Gathers the cell itself, and the cells that one straight step leads to, or two around a corner. Most cells have eight
-   others around them, and no square there is divided: then the steps of the grid are these. A diagonal step of the grid
-   needs both ways around it: beside a cut there is often one, and a fit without these cells would jump from cell to
+/* Gathers the cell itself, and the cells that one straight step leads to, or two around a corner. A diagonal step of the
+   grid needs both ways around it: beside a cut there is often one, and a fit without these cells would jump from cell to
    cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    static const uint8_t sorted[] = { 4, 0, 5, 1, 2, 6, 3, 7 }; /* plain steps, by square */
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
-    bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
-    KIRI_TIMES_WHILE(plain, k, steps.end[1]) {
-        plain = grid->whole.data[grid->cells.data[kiriSteps_At(&steps, k).cell].square];
-    }
-    int32_t end = steps.end[plain ? 1 : 0];
-    stencil->full = plain;
     stencil->steps.count = 0;
-    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end + 1)) {
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)steps.end[0] + 1)) {
         return false;
     }
     KIRI_NEXT(stencil->steps) = (kiriStep){ cell, 0, 0, 0 };
-    KIRI_TIMES_WHILE(plain, k, end) {
-        KIRI_NEXT(stencil->steps) = kiriSteps_At(&steps, sorted[k]);
-    }
-    KIRI_TIMES_WHILE(!plain, k, end) {
+    KIRI_TIMES(k, steps.end[0]) {
         const kiriStep to = kiriSteps_At(&steps, k);
         InsertStep(stencil, grid, to);
         kiriSteps more = kiriGrid_GetSteps(grid, to.cell);
@@ -255,13 +244,13 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
         return false;
     }
     stencil->split = false;
-    KIRI_TIMES_WHILE(!stencil->full, k, count) {
+    KIRI_TIMES(k, count) {
         kiriStep to = stencil->steps.data[k];
         int32_t square = 1 << (3 * (to.v + 1) + to.u + 1);
         stencil->split = stencil->split || (seen & square) != 0;
         seen |= square;
     }
-    stencil->full = stencil->full || (count == 9 && seen == 511);
+    stencil->full = count == 9 && seen == 511;
     KIRI_TIMES_WHILE(stencil->split, k, count) {
         kiriMoments material = kiriGrid_Material(grid, stencil->steps.data[k].cell);
         stencil->centers.data[k] = OffsetOf(stencil, kiriMoments_Center(&material));

@@ -100,7 +100,7 @@ typedef struct kiriMeshInput {
     const int32_t* indices; /* 3 a triangle */
     int32_t triangleCount;
     int32_t resolution;  /* of the grid, along the longer side */
-    double weldDistance; /* m: see kiriWeld_Find; 0: no welding */
+    double weldDistance; /* m: see FindWelds; 0: no welding */
 } kiriMeshInput;
 
 /* Checks and copies the caller's triangles. Drops unused vertices, and triangles that become degenerate by welding. The
@@ -251,10 +251,15 @@ double kiriMesh_Area(const kiriMeshData* mesh);
 void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float share[3]);
 void kiriMesh_GetShareIn(const kiriMeshData* mesh, int32_t vertex, int32_t source, float share[3]);
 
-/* Returns a lattice point in metres from the lattice's origin ("local"). */
+/* Return a lattice point, or a vertex, in metres from the lattice's origin ("local"). */
 static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriLatticePoint p)
 {
     return kiriVec2_Make(mesh->step * p.x, mesh->step * p.y);
+}
+
+static inline kiriVec2 kiriMesh_LocalOf(const kiriMeshData* mesh, int32_t vertex)
+{
+    return kiriMesh_Local(mesh, kiriMesh_At(mesh, vertex));
 }
 
 /* Return the nearest even lattice point, from lattice or local coordinates. Clip points outside four times the sheet's

@@ -1,4 +1,4 @@
-#include "kiri_mesh_build.h"
+#include "kiri_mesh.h"
 
 /* Allocates indices, all with the same value. */
 static int32_t* MakeIndices(kiriMemory* memory, int64_t count, int32_t value)
@@ -58,7 +58,11 @@ static int32_t FindNearestKept(const WeldGrid* grid, kiriLatticePoint at)
     return found;
 }
 
-bool kiriWeld_Find(const kiriLatticePoint* at, int32_t count, double distance, int32_t* to, kiriMemory* memory)
+/* Writes for each vertex the vertex that it is welded to: itself, or a lower one that is welded to itself. Vertices are
+   taken in ascending order. Each is welded to the nearest kept vertex nearer than `distance` (lattice steps), the lowest
+   of several; it is kept if there is none. to[v] is KIRI_NONE on entry if vertex v is left out, and stays so.
+   Coordinates are even, 0 to 2^30. O(count). Scratch comes from `memory`. Returns false on out of memory. */
+static bool FindWelds(const kiriLatticePoint* at, int32_t count, double distance, int32_t* to, kiriMemory* memory)
 {
     const double widest = 1 << 30;
     KIRI_ASSERT(distance > 0.0);
@@ -227,7 +231,7 @@ static kiriResult TakeTriangles(kiriMeshData* mesh, const kiriMeshInput* input, 
     }
     kiriResult result = PlaceVertices(mesh, input, &welded, extent, fault);
     if (result == KIRI_OK && input->weldDistance > 0.0 &&
-        !kiriWeld_Find(welded.at, input->vertexCount, input->weldDistance / mesh->step, welded.to, scratch)) {
+        !FindWelds(welded.at, input->vertexCount, input->weldDistance / mesh->step, welded.to, scratch)) {
         result = KIRI_ERROR_MEMORY;
     }
     result = result == KIRI_OK ? AddVertices(mesh, input, &welded, fault) : result;
@@ -255,7 +259,7 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
         at[v] = kiriMesh_At(mesh, v);
         point[v] = v;
     }
-    if (!kiriWeld_Find(at, vertices, 1.0, point, scratch)) {
+    if (!FindWelds(at, vertices, 1.0, point, scratch)) {
         return KIRI_ERROR_MEMORY;
     }
     KIRI_TIMES(h, halves) {

@@ -874,8 +874,14 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
                                search->memory, &search->triangles)) {
         return false;
     }
-    KIRI_KEEP_IF(const int32_t, at, search->triangles, /* and none of pieces that neither move nor wake in this tick */
-                 kiriPiece_MayMove(&sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, *at)]));
+    bool allMove = true;
+    KIRI_EACH(const kiriPiece, piece, sheet->layout.pieces) {
+        allMove &= kiriPiece_MayMove(piece);
+    }
+    if (!allMove) { /* drops the triangles of pieces that neither move nor wake in this tick */
+        KIRI_KEEP_IF(const int32_t, at, search->triangles,
+                     kiriPiece_MayMove(&sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, *at)]));
+    }
     return search->triangles.count == 0 ||
            (TouchVertices(&meeting) && TouchRounds(&meeting) &&
             (sheet->settings.mechanics.planar ? TouchCorners(&meeting) : TouchEdges(&meeting)));

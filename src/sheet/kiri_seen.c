@@ -116,7 +116,7 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
     kiriMotion motion = { 0 };
     KIRI_EACH_CORNER(k) {
         int32_t corner = CornersOf(sheet, place)[k];
-        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corner].at);
+        kiriVec2 local = kiriMesh_LocalOf(&sheet->mesh, corner);
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
         KIRI_EACH_IN(i, span) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];

@@ -346,7 +346,7 @@ bool kiriSites_FollowTears(kiriSheetData* sheet)
         kiriSlitEnd end;
         bool mayTear = kiriCut_IsTear(cut) || (cut->ended && kiriTears_MayGrow(sheet));
         if (mayTear && vertex != KIRI_NONE && kiriSlits_WayOn(&sheet->mesh, vertex, &end.along)) {
-            end.at = kiriMesh_Local(&sheet->mesh, kiriMesh_At(&sheet->mesh, vertex));
+            end.at = kiriMesh_LocalOf(&sheet->mesh, vertex);
             end.along = kiriCut_IsTear(cut) ? cut->tears : end.along;
             end.cell = kiriGrid_CellOfVertex(&sheet->grid, vertex);
             ok = MovePair(sheet, &end, kiriPiece_OfVertex(sheet, vertex));

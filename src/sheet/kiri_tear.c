@@ -50,13 +50,6 @@ static bool IsTipBefore(const void* context, int32_t a, int32_t b)
                                                                                         s->along.y < t->along.y;
 }
 
-static bool PushTip(kiriSheetData* sheet, kiriTearTip tip)
-{
-    KIRI_ASSERT_HAS(sheet->mesh.vertices, tip.vertex);
-    return kiriArray_Push(sheet->memory, &sheet->tears.order, sheet->tears.found.count) &&
-           kiriArray_Push(sheet->memory, &sheet->tears.found, tip);
-}
-
 static bool IsTornEdge(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_Twin(mesh, h) == KIRI_NONE || (kiriMesh_IsOpen(mesh, h) && !kiriMesh_IsCrease(mesh, h));
@@ -110,24 +103,24 @@ bool kiriTears_List(kiriSheetData* sheet)
     if (tears->areListed) {
         return true;
     }
-    tears->found.count = tears->order.count = 0;
+    tears->found.count = 0;
     KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriTearTip tip = { kiriMesh_At(mesh, v), { 0.0, 0.0 }, v };
-        if (kiriSlits_WayOn(mesh, v, &tip.along) && !PushTip(sheet, tip)) {
+        if (kiriSlits_WayOn(mesh, v, &tip.along) && !kiriArray_Push(sheet->memory, &tears->found, tip)) {
             return false;
         }
     }
     KIRI_TIMES_WHILE(sheet->tearLines.count > 0, h, 3 * mesh->triangles.count) {
         KIRI_EACH_WHILE(IsTornEdge(mesh, h), const kiriTearLine, line, sheet->tearLines) {
             kiriTearTip tip;
-            if (line->factor < 1.0 && FindLineEnd(sheet, line, h, &tip) && !PushTip(sheet, tip)) {
+            if (line->factor < 1.0 && FindLineEnd(sheet, line, h, &tip) &&
+                !kiriArray_Push(sheet->memory, &tears->found, tip)) {
                 return false;
             }
         }
     }
-    kiriSort(tears->order.data, tears->order.count, IsTipBefore, tears);
-    tears->areListed = true;
-    return true;
+    tears->areListed = kiriSort_Order(sheet->memory, &tears->order, tears->found.count, IsTipBefore, tears);
+    return tears->areListed;
 }
 
 /* ---- Strains ----------------------------------------------------------------------------------------------------- */

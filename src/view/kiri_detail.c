@@ -239,7 +239,7 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
     float *offsets = detail->moving.data, *crease = detail->crease.data;
     KIRI_ASSERT(detail->isListed);
     KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
-        int32_t vertex = item->vertex;
+        ptrdiff_t vertex = item->vertex;
         kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
         kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Sub(kiriLanes_Load(offsets + 4 * vertex), from));
         kiriLanes_Store(crease + 4 * vertex, kiriLanes_Splat(0.0f));
@@ -263,7 +263,7 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
         kiriLanes_Store(b, kiriLanes_Add(kiriLanes_Load(b), kiriLanes_Mul(kiriLanes_Pick(second, 3, 3, 3, 3), by)));
     }
     KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
-        int32_t vertex = item->vertex;
+        ptrdiff_t vertex = item->vertex;
         kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
         kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Add(kiriLanes_Load(offsets + 4 * vertex), from));
     }

@@ -574,7 +574,7 @@ static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVe
 {
     const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
     KIRI_EACH_CORNER(k) {
-        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
+        kiriVec2 local = kiriMesh_LocalOf(&sheet->mesh, corners[k]);
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         KIRI_EACH_IN(i, span) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];

@@ -151,7 +151,7 @@ static kiriVec2 RestOfPlace(const kiriPlace3* place)
     kiriVec2 at = { 0.0, 0.0 };
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
         const kiriMeshData* mesh = &place->sheet->mesh;
-        at = kiriVec2_AddScaled(at, place->share[k], kiriMesh_Local(mesh, mesh->vertices.data[place->vertex[k]].at));
+        at = kiriVec2_AddScaled(at, place->share[k], kiriMesh_LocalOf(mesh, place->vertex[k]));
     }
     return at;
 }

@@ -719,7 +719,7 @@ static void AddLipVertices(kiriWeld* weld, const Stretch* stretch, int32_t first
     KIRI_EACH_NEARBY(t, nearby) {
         KIRI_EACH_CORNER(k) {
             int32_t v = mesh->triangles.data[t].vertex[k];
-            kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+            kiriVec2 p = kiriMesh_LocalOf(mesh, v);
             if (kiriVec2_DistanceToWay(p, from, to) < ON_SEAM * mesh->step &&
                 kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
                 AddWeldNode(weld, stretch, first, a.part + (b.part - a.part) * kiriVec2_PartOnWay(p, from, to), end, v);
@@ -823,7 +823,7 @@ static void TakeNear(kiriWeldNear* near, const kiriWeld* weld, const Stretch* st
     KIRI_EACH_NEARBY(t, nearby) {
         KIRI_EACH_CORNER(k) {
             int32_t v = mesh->triangles.data[t].vertex[k];
-            kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
+            kiriVec2 p = kiriMesh_LocalOf(mesh, v);
             float distance = (float)(kiriVec2_DistanceToWay(p, from, to) / reach);
             if (distance < near[v].distance && kiriPiece_OfVertex(sheet, v) == stretch->pieces[end]) {
                 double part = a.part + (b.part - a.part) * kiriVec2_PartOnWay(p, from, to);
