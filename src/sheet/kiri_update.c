@@ -381,13 +381,9 @@ static kiriProgress RunSteps(kiriSheetData* sheet, kiriQuota* quota, StageStep* 
     return progress;
 }
 
-/* Step of KIRI_STAGE_SAMPLES at which StartAgain resumes. */
-enum { WEIGH_VERTICES = 2 };
-
 static kiriProgress StageSamples(kiriSheetData* sheet, kiriQuota* samples)
 {
     static StageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
-    KIRI_ASSERT(steps[WEIGH_VERTICES] == WeighVertices);
     return RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
 
@@ -641,21 +637,11 @@ static void DropStaged(kiriSheetData* sheet)
     kiriRefit_Drop(&u->refit);
 }
 
-/* Returns to the last restart point after an item failed halfway. Rare, because the item could use the spare block. */
+/* Begins anew after an item failed halfway. Rare, because the item could use the spare block. */
 static void StartAgain(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    if (u->stage == KIRI_STAGE_SHAPE && u->step == MAKE_LINKS) {
-        kiriLinks_Drop(&sheet->links);
-    } else if (u->stage == KIRI_STAGE_SAMPLES && u->step >= WEIGH_VERTICES) {
-        kiriSkin_Drop(&sheet->vertexSkin);
-        kiriSkin_Drop(&sheet->pointSkin);
-        u->samples.refresh.square = 0;
-        u->samples.refresh.sample = u->samples.refresh.stencil.cell = KIRI_NONE;
-        u->samples.newPoints.count = u->samples.movedPoints.count = 0;
-        u->placing.isTaking = u->placing.isPlacing = false;
-        u->step = WEIGH_VERTICES;
-    } else if (u->stage >= KIRI_STAGE_GRID && u->stage <= KIRI_STAGE_SHAPE) {
+    if (u->stage >= KIRI_STAGE_GRID && u->stage <= KIRI_STAGE_SAMPLES) {
         DropStaged(sheet);
         u->needsRebuild = true;
         u->stage = KIRI_STAGE_GRID;
