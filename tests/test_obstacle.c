@@ -162,7 +162,7 @@ static kiriObstacle Add(Host* host, const kiriObstacleDef* def)
     return obstacle;
 }
 
-/* Of a plate of one frame. */
+/* Describes a plate of one frame. */
 static kiriSheetDef PlateDef(float contactThickness)
 {
     kiriSheetDef def = SheetOf(8, 1);

@@ -114,17 +114,6 @@ static bool Overlaps(const kiriSquares* squares, SquareBox box, int32_t column, 
     return overlaps;
 }
 
-/* Returns the number of squares that a triangle overlaps. */
-static int64_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
-{
-    SquareBox box = BoxOf(squares, corners);
-    int64_t count = 0;
-    EACH_IN_BOX(row, column, box) {
-        count += Overlaps(squares, box, column, row, corners);
-    }
-    return count;
-}
-
 /* Separating axes: the sides of the square, and the segment. */
 bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLatticePoint a, kiriLatticePoint b)
 {
@@ -225,7 +214,14 @@ int64_t kiriSquares_MostNodes(const kiriSquares* squares, const kiriLatticePoint
     enum { FEW = 16 };
     SquareBox box = BoxOf(squares, corners);
     int64_t inBox = (box.lastColumn - box.firstColumn + 1) * (int64_t)(box.lastRow - box.firstRow + 1);
-    return inBox <= FEW ? inBox : CountOverlaps(squares, corners);
+    if (inBox <= FEW) {
+        return inBox;
+    }
+    int64_t count = 0;
+    EACH_IN_BOX(row, column, box) {
+        count += Overlaps(squares, box, column, row, corners);
+    }
+    return count;
 }
 
 /* Adds a node, for which there is room. */
