@@ -191,30 +191,44 @@ static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* member
 
 /* ---- Seams come and go ------------------------------------------------------------------------------------------- */
 
-static kiriVec2 LinePoint(const float* line, int32_t i)
+/* What a seam sews at one end. */
+typedef struct SeamLine {
+    kiriSheetData* sheet;
+    const float* points;
+    int32_t count;
+    double length;
+} SeamLine;
+
+static kiriVec2 LinePoint(const SeamLine* line, int32_t i)
 {
-    return kiriVec2_Make(line[2 * i], line[2 * i + 1]);
+    KIRI_ASSERT_HAS(*line, i);
+    return kiriVec2_Make(line->points[2 * i], line->points[2 * i + 1]);
 }
 
-static double LineLength(const float* line, int32_t count)
+static double LengthAfter(const SeamLine* line, int32_t i)
 {
-    double length = 0.0;
-    KIRI_FROM_TO(i, 1, count) {
-        length += kiriVec2_Length(kiriVec2_Sub(LinePoint(line, i), LinePoint(line, i - 1)));
+    return kiriVec2_Distance(LinePoint(line, i), LinePoint(line, i + 1));
+}
+
+static SeamLine MakeLine(const kiriWorld* world, kiriSheet sheet, const float* points, int32_t count)
+{
+    SeamLine line = { kiriPool_Find(&world->sheetIds, sheet)->owner, points, count, 0.0 };
+    KIRI_TIMES(i, count - 1) {
+        line.length += LengthAfter(&line, i);
     }
-    return length;
+    return line;
 }
 
 /* Finds the point of the material at a length along the line. Tries points beside it if it is outside by rounding. */
-static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t count, double along, kiriStitchData* stitch,
-                     int end)
+static bool PlaceEnd(const SeamLine* line, double along, kiriStitchData* stitch, int end)
 {
     static const int8_t sides[9][2] = { { 0, 0 }, { 1, 0 },  { -1, 0 }, { 0, 1 },  { 0, -1 },
                                         { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
+    const kiriSheetData* sheet = line->sheet;
+    int32_t i = 1, count = line->count;
     KIRI_ASSERT(count >= 2 && along >= 0.0);
-    int32_t i = 1;
     kiriVec2 from = LinePoint(line, 0), way = kiriVec2_Sub(LinePoint(line, 1), from);
-    while (count > 2 && memcmp(&line[2 * count - 2], &line[2 * count - 4], 2 * sizeof(float)) == 0) {
+    while (count > 2 && memcmp(&line->points[2 * count - 2], &line->points[2 * count - 4], 2 * sizeof(float)) == 0) {
         --count;
     }
     for (; i + 1 < count && (along > kiriVec2_Length(way) || !(kiriVec2_Length(way) > 0.0)); ++i) {
@@ -254,15 +268,12 @@ static bool IsStiff(const kiriSheetData* sheet)
     return bending > material->density * GRAVITY * spacing * spacing * spacing;
 }
 
-static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
+static const char* PlaceStitches(const SeamLine lines[2], kiriSeamData* seam)
 {
-    const float* lines[2] = { def->lineA, def->lineB };
-    const int32_t counts[2] = { def->countA, def->countB };
-    double lengths[2];
     bool isClosed = true;
     KIRI_TIMES(end, 2) {
-        lengths[end] = LineLength(lines[end], counts[end]);
-        isClosed = isClosed && memcmp(lines[end], &lines[end][2 * (counts[end] - 1)], 2 * sizeof(float)) == 0;
+        const float *first = lines[end].points, *last = &first[2 * (lines[end].count - 1)];
+        isClosed = isClosed && memcmp(first, last, 2 * sizeof(float)) == 0;
     }
     int32_t count = seam->stitches.count, parts = isClosed ? count : count - 1;
     KIRI_ASSERT(parts > 0);
@@ -274,9 +285,9 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
         stitch->number = k;
         stitch->next = k + 1 < count ? k + 1 : isClosed ? 0 : KIRI_NONE;
         stitch->share = isEnd ? 0.5 : 1.0;
-        stitch->length = stitch->share / parts * 0.5 * (lengths[0] + lengths[1]);
+        stitch->length = stitch->share / parts * 0.5 * (lines[0].length + lines[1].length);
         KIRI_TIMES(end, 2) {
-            if (!PlaceEnd(sheets[end], lines[end], counts[end], part * lengths[end], stitch, end)) {
+            if (!PlaceEnd(&lines[end], part * lines[end].length, stitch, end)) {
                 return end == 0 ? "def.lineA leaves the material" : "def.lineB leaves the material";
             }
         }
@@ -285,32 +296,28 @@ static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sh
 }
 
 /* Places the corners of both lines that are between stitches. Those outside the material are left out. */
-static void PlaceCorners(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
+static void PlaceCorners(const SeamLine lines[2], kiriSeamData* seam)
 {
-    const float* lines[2] = { def->lineA, def->lineB };
-    const int32_t counts[2] = { def->countA, def->countB };
-    const double lengths[2] = { LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB) };
     int32_t stitches = seam->stitches.count, next[2] = { 1, 1 };
     double along[2], last = 0.0, parts = seam->stitches.data[stitches - 1].next == KIRI_NONE ? stitches - 1 : stitches;
     KIRI_TIMES(end, 2) {
-        along[end] = kiriVec2_Distance(LinePoint(lines[end], 0), LinePoint(lines[end], 1)) / lengths[end];
+        along[end] = LengthAfter(&lines[end], 0) / lines[end].length;
     }
-    while (next[0] + 1 < counts[0] || next[1] + 1 < counts[1]) {
-        int end = next[1] + 1 >= counts[1] || (next[0] + 1 < counts[0] && along[0] <= along[1]) ? 0 : 1;
+    while (next[0] + 1 < lines[0].count || next[1] + 1 < lines[1].count) {
+        int end = next[1] + 1 >= lines[1].count || (next[0] + 1 < lines[0].count && along[0] <= along[1]) ? 0 : 1;
         double at = along[end] * parts;
         kiriSeamCorner corner = { kiriMin((int32_t)at, (int32_t)parts - 1), 0.0, { { 0, 0 }, { 0, 0 } } };
         kiriStitchData place = { 0 };
         corner.part = at - corner.stitch;
         if (at > last + 1e-6 && corner.part > 1e-6 && corner.part < 1.0 - 1e-6 &&
             seam->corners.count < seam->corners.capacity &&
-            PlaceEnd(sheets[0], lines[0], counts[0], along[end] * lengths[0], &place, 0) &&
-            PlaceEnd(sheets[1], lines[1], counts[1], along[end] * lengths[1], &place, 1)) {
+            PlaceEnd(&lines[0], along[end] * lines[0].length, &place, 0) &&
+            PlaceEnd(&lines[1], along[end] * lines[1].length, &place, 1)) {
             memcpy(corner.at, place.at, sizeof(corner.at));
             KIRI_NEXT(seam->corners) = corner;
         }
         last = at;
-        along[end] += kiriVec2_Distance(LinePoint(lines[end], next[end]), LinePoint(lines[end], next[end] + 1)) / lengths[end];
-        next[end] += 1;
+        along[end] += LengthAfter(&lines[end], next[end]++) / lines[end].length;
     }
 }
 
@@ -342,9 +349,10 @@ void kiriDefaultSeamDef(kiriSeamDef* def)
 kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam)
 {
     KIRI_CHANGES(CreateSeam, def, seam);
-    kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
-                                 kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
-    double length = kiriMin(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
+    const SeamLine lines[2] = { MakeLine(world, def->sheetA, def->lineA, def->countA),
+                                MakeLine(world, def->sheetB, def->lineB, def->countB) };
+    kiriSheetData* const sheets[2] = { lines[0].sheet, lines[1].sheet };
+    double length = kiriMin(lines[0].length, lines[1].length);
     double spacing = kiriMin(kiriSheet_Spacing(sheets[0]), kiriSheet_Spacing(sheets[1]));
     KIRI_CHECK(length > 0.0, "def.lineA or def.lineB has no length");
     KIRI_CHECK(!sheets[0]->settings.mechanics.planar && !sheets[1]->settings.mechanics.planar,
@@ -362,9 +370,9 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
                    kiriArray_ReserveJust(&world->memory, &made->rows, count);
     hasRoom = hasRoom && kiriArray_ReserveJust(&world->memory, &made->corners,
                                                kiriMin(def->countA + def->countB - 4, MOST_CORNERS));
-    const char* why = hasRoom ? PlaceStitches(def, sheets, made) : NULL;
+    const char* why = hasRoom ? PlaceStitches(lines, made) : NULL;
     if (hasRoom && why == NULL) {
-        PlaceCorners(def, sheets, made);
+        PlaceCorners(lines, made);
         hasRoom = kiriWeld_Make(world, made);
     }
     KIRI_TIMES_WHILE(hasRoom, end, 2) { /* the offsets of drawn lips */
