@@ -203,7 +203,7 @@ static void MoveBlock(kiriArchive* archive, const kiriMember* field, void* array
         header.count = header.data == NULL ? 0 : header.count;
         kiriArray_SetHeader(array, header);
         if (header.count > 0 && (!hasItems || (field->table != NULL && !archive->isWhole))) {
-            memset(header.data, 0, (size_t)header.count * (size_t)field->size);
+            memset(header.data, 0, (size_t)header.count * field->size);
         }
     }
     if (hasItems && field->table != NULL) {
@@ -223,7 +223,7 @@ static void MoveOwned(kiriArchive* archive, const kiriMember* field, void* point
     if (kiriArchive_Reads(archive)) {
         object = isThere ? MakeBlock(archive, field->table()->size) : NULL;
         if (object != NULL) {
-            memset(object, 0, (size_t)field->table()->size);
+            memset(object, 0, field->table()->size);
         }
         memcpy(pointer, &object, sizeof(object));
     }
@@ -277,7 +277,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
         break;
     case KIRI_MEMBER_DROPPED:
         if (archive->isWhole && kiriArchive_Reads(archive)) {
-            memset(at, 0, (size_t)field->size);
+            memset(at, 0, field->size);
         }
         break;
     default:
@@ -311,7 +311,7 @@ static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, 
         uint8_t* at = object + field->offset;
         if (field->kind == KIRI_MEMBER_KEPT) {
             KIRI_ASSERT(bytes + field->size <= MOST_KEPT);
-            memcpy(isBack ? at : kept + bytes, isBack ? kept + bytes : at, (size_t)field->size);
+            memcpy(isBack ? at : kept + bytes, isBack ? kept + bytes : at, field->size);
             bytes += field->size;
         } else if (field->kind == KIRI_MEMBER_PART && field->size == field->table()->size) {
             bytes += MoveKept(field->table(), at, kept + bytes, isBack);

@@ -29,7 +29,7 @@ static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t 
         return false;
     }
     if (header.count > 0) {
-        memcpy(data, header.data, (size_t)header.count * itemBytes);
+        memcpy(data, header.data, header.count * itemBytes);
     }
     if (retired != NULL) {
         kiriMemory_Adopt(retired, header.data);
@@ -94,7 +94,7 @@ void kiriArray_SetFrom(void* array, int32_t from, int byte, size_t itemBytes)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
     if (header.count > from) {
-        memset((char*)header.data + (size_t)from * itemBytes, byte, (size_t)(header.count - from) * itemBytes);
+        memset((char*)header.data + from * itemBytes, byte, (header.count - from) * itemBytes);
     }
 }
 
@@ -214,7 +214,7 @@ static unsigned char* ItemAt(const void* array, size_t itemBytes, int32_t index)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
     KIRI_ASSERT_HAS(header, index);
-    return (unsigned char*)header.data + (size_t)index * itemBytes;
+    return (unsigned char*)header.data + index * itemBytes;
 }
 
 /* Returns the first item of free room of a size class; KIRI_NONE on out of memory. */
@@ -245,7 +245,7 @@ static void ShrinkSpan(kiriSpan* span, kiriSpans* spans, void* array, size_t ite
     int32_t was = span->first;
     if (spans->freeHead[to] != 0) {
         span->first = TakeRoom(spans, NULL, array, itemBytes, to);
-        memcpy(ItemAt(array, itemBytes, span->first), ItemAt(array, itemBytes, was), itemBytes * (size_t)count);
+        memcpy(ItemAt(array, itemBytes, span->first), ItemAt(array, itemBytes, was), itemBytes * count);
         GiveRoom(spans, array, itemBytes, was, from);
         return;
     }
@@ -265,7 +265,7 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
         }
         if (span->count > 0) {
             memcpy(ItemAt(array, itemBytes, first), ItemAt(array, itemBytes, span->first),
-                   itemBytes * (size_t)span->count);
+                   itemBytes * span->count);
             GiveRoom(spans, array, itemBytes, span->first, from);
         }
         span->first = first;
@@ -281,7 +281,7 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
 static kiriSpan* SpanAt(kiriSpan* spans, size_t strideBytes, int32_t group)
 {
     KIRI_ASSERT(group >= 0);
-    return (kiriSpan*)((char*)spans + strideBytes * (size_t)group);
+    return (kiriSpan*)((char*)spans + strideBytes * group);
 }
 
 int32_t kiriSpans_Group(const int32_t* of, int32_t count, kiriSpan* spans, size_t strideBytes, int32_t groups,
@@ -379,7 +379,7 @@ static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned cha
         }
         if (map[i] != KIRI_NONE) {
             KIRI_ASSERT(map[i] <= i && map[end - 1] == map[i] + end - 1 - i);
-            memmove(to + (size_t)map[i] * itemBytes, from + (size_t)i * itemBytes, (size_t)(end - i) * itemBytes);
+            memmove(to + map[i] * itemBytes, from + i * itemBytes, (end - i) * itemBytes);
         }
     }
 }
@@ -389,7 +389,7 @@ void kiriKeep_Compact(const kiriKeep* keep, void* array, int32_t each, size_t en
     kiriArrayHeader header = kiriArray_GetHeader(array);
     if (header.count > 0) {
         KIRI_ASSERT(header.count == each * keep->to.count);
-        MoveRuns(keep, header.data, header.data, keep->first, (size_t)each * entryBytes);
+        MoveRuns(keep, header.data, header.data, keep->first, each * entryBytes);
         header.count = each * keep->count;
         kiriArray_SetHeader(array, header);
     }
@@ -398,14 +398,14 @@ void kiriKeep_Compact(const kiriKeep* keep, void* array, int32_t each, size_t en
 void kiriKeep_Copy(const kiriKeep* keep, void* to, const void* from, size_t itemBytes)
 {
     if (keep->first > 0) {
-        memcpy(to, from, (size_t)keep->first * itemBytes);
+        memcpy(to, from, keep->first * itemBytes);
     }
     MoveRuns(keep, to, from, keep->first, itemBytes);
 }
 
 static int32_t* LinkOf(int32_t* next, size_t strideBytes, int32_t item)
 {
-    return (int32_t*)((char*)next + (size_t)item * strideBytes);
+    return (int32_t*)((char*)next + item * strideBytes);
 }
 
 /* Returns the new link for a link to `item`. Older items have their new links already, so the link of a removed item

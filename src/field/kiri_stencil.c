@@ -153,7 +153,7 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
         values[i] = 0.0;
     }
     KIRI_EACH_INDEX(k, stencil->steps) {
-        const double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        const double* weights = stencil->weights.data + (size_t)k * count;
         double share = stencil->shares.data[k];
         KIRI_TIMES(i, count) {
             values[i] += weights[i] * share;
@@ -300,7 +300,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
     memset(stencil->weights.data, 0, sizeof(double) * stencil->weights.count);
     KIRI_EACH_INDEX(k, stencil->steps) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
-        double* weights = stencil->weights.data + (size_t)k * (size_t)count;
+        double* weights = stencil->weights.data + (size_t)k * count;
         KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Value(&shape->weights.data[w]);
@@ -331,7 +331,7 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
     PointFit fit = FitAround(stencil, at, kiriVec2_Make(0.0, 0.0));
     KIRI_EACH_INDEX(k, stencil->steps) {
         kiriVec2 slope = FitSlope(&fit, stencil->steps.data[k], stencil->shares.data[k]);
-        const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
+        const double* weights = stencil->weights.data + (size_t)k * out->count;
         KIRI_EACH_INDEX(i, *out) {
             kiriPointWeight* weight = &out->data[i];
             weight->gradient = kiriVec2_AddScaled(weight->gradient, weights[i] / stencil->side, slope);

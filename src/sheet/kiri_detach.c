@@ -714,7 +714,7 @@ bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
     *isBad = false;
     bool ok = RunStages(sheet, isBad) && Commit(sheet);
     if (ok) {
-        memcpy(sheet->regions.dirty.data, dirty.data, (size_t)sheet->frames.count);
+        memcpy(sheet->regions.dirty.data, dirty.data, sheet->frames.count);
     }
     kiriMemory_Free(sheet->memory, dirty.data);
     return ok;

@@ -710,7 +710,7 @@ static void TakeSpeeds(void* to, const void* from, size_t itemBytes)
 {
     kiriArrayHeader old = kiriArray_GetHeader(from), fresh = kiriArray_GetHeader(to);
     if (old.count == fresh.count && old.count > 0) {
-        memcpy(fresh.data, old.data, itemBytes * (size_t)old.count);
+        memcpy(fresh.data, old.data, itemBytes * old.count);
     }
 }
 

@@ -146,7 +146,7 @@ static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
         ++k;
     }
     if (k == span->count || weights[k].frame != frame) {
-        memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
+        memmove(weights + k + 1, weights + k, (span->count - k) * sizeof(*weights));
         weights[k] = (kiriSampleWeight){ frame, 0.0f };
         ++span->count;
     }

@@ -205,7 +205,7 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
     kiriArray_Set(&patches->isOther, KIRI_PATCH_SAME);
     KIRI_TIMES(n, ItemCount(some, count)) {
         int32_t i = SampleAt(some, n);
-        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
+        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * i;
         KIRI_ASSERT(i >= 0 && i < count);
         WritePatchRow(row, &carriers[i], from, isBent);
         patches->isOther.data[i] = i >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);

@@ -981,7 +981,7 @@ static bool BeginFolds(kiriSheetData* sheet)
         return false;
     }
     KIRI_ASSERT(sheet->probes.marks.count == sheet->seen.surface.vertexCount);
-    memset(sheet->probes.marks.data, 0, (size_t)sheet->probes.marks.count);
+    memset(sheet->probes.marks.data, 0, sheet->probes.marks.count);
     kiriSurface_NeedNormals(&sheet->seen.surface);
     return true;
 }
