@@ -637,7 +637,7 @@ static void DropStaged(kiriSheetData* sheet)
     kiriRefit_Drop(&u->refit);
 }
 
-/* Begins anew after an item failed halfway. That is rare, because the item could use the spare block. */
+/* Makes the grid again after an item failed halfway. That is rare, because the item could use the spare block. */
 static void StartAgain(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;

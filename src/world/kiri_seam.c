@@ -191,7 +191,7 @@ static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* member
 
 /* ---- Seams come and go ------------------------------------------------------------------------------------------- */
 
-/* What a seam sews at one end. */
+/* A line of the host at one end of a seam. */
 typedef struct SeamLine {
     kiriSheetData* sheet;
     const float* points;
@@ -299,10 +299,8 @@ static const char* PlaceStitches(const SeamLine lines[2], kiriSeamData* seam)
 static void PlaceCorners(const SeamLine lines[2], kiriSeamData* seam)
 {
     int32_t stitches = seam->stitches.count, next[2] = { 1, 1 };
-    double along[2], last = 0.0, parts = seam->stitches.data[stitches - 1].next == KIRI_NONE ? stitches - 1 : stitches;
-    KIRI_TIMES(end, 2) {
-        along[end] = LengthAfter(&lines[end], 0) / lines[end].length;
-    }
+    double last = 0.0, parts = seam->stitches.data[stitches - 1].next == KIRI_NONE ? stitches - 1 : stitches;
+    double along[2] = { LengthAfter(&lines[0], 0) / lines[0].length, LengthAfter(&lines[1], 0) / lines[1].length };
     while (next[0] + 1 < lines[0].count || next[1] + 1 < lines[1].count) {
         int end = next[1] + 1 >= lines[1].count || (next[0] + 1 < lines[0].count && along[0] <= along[1]) ? 0 : 1;
         double at = along[end] * parts;
@@ -639,12 +637,6 @@ void kiriSeams_End(kiriWorld* world, double dt)
 
 /* ---- Stretches --------------------------------------------------------------------------------------------------- */
 
-static kiriSheetData* SheetOfStitch(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch, int end)
-{
-    KIRI_ASSERT_HAS(seam->stitches, stitch);
-    return SlotOf(world, &seam->stitches.data[stitch], end)->owner;
-}
-
 /* The part of a seam from a stitch to the next one, in one piece at each end. */
 typedef struct Stretch {
     kiriSheetData* sheets[2];
@@ -894,8 +886,8 @@ static int64_t CountSewnVertices(const kiriWorld* world, const kiriSeamData* sea
 {
     int64_t sum = 0;
     KIRI_TIMES(k, 2 * seam->stitches.count) {
-        const kiriSheetData* sheet = SheetOfStitch(world, seam, k / 2, k % 2);
-        if (k < 2 || sheet != SheetOfStitch(world, seam, k / 2 - 1, k % 2)) {
+        const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[k / 2], k % 2);
+        if (k < 2 || sheet != kiriStitch_Sheet(world, &seam->stitches.data[k / 2 - 1], k % 2)) {
             sum += sheet->mesh.vertices.count;
             *most = kiriMax(sheet->mesh.vertices.count, *most);
         }
@@ -936,10 +928,10 @@ static void ListWeld(kiriWorld* world, kiriSeamData* seam)
         }
     }
     KIRI_TIMES(k, 2 * seam->stitches.count) {
-        const kiriSheetData* sheet = SheetOfStitch(world, seam, k / 2, k % 2);
+        const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[k / 2], k % 2);
         bool isFirst = true;
         KIRI_TIMES_WHILE(isFirst, back, k / 2) { /* the last one first: it mostly has the same sheet */
-            isFirst = SheetOfStitch(world, seam, k / 2 - 1 - back, k % 2) != sheet;
+            isFirst = kiriStitch_Sheet(world, &seam->stitches.data[k / 2 - 1 - back], k % 2) != sheet;
         }
         if (isFirst) {
             ListLipVertices(world, seam, weld, sheet, k % 2);
@@ -987,7 +979,7 @@ static bool BeginWeld(kiriWorld* world, kiriSeamData* seam)
 {
     bool isStale = KeyOfWeld(world, seam) != seam->weld.key, any = false;
     KIRI_TIMES_WHILE(!isStale, k, 2 * seam->stitches.count) {
-        isStale = SheetOfStitch(world, seam, k / 2, k % 2)->seen.isElsewhere;
+        isStale = kiriStitch_Sheet(world, &seam->stitches.data[k / 2], k % 2)->seen.isElsewhere;
     }
     if (isStale) {
         ListWeld(world, seam);
