@@ -1164,7 +1164,7 @@ static bool IsLinked(const LinkUpdate* u, int32_t i, int32_t j, int32_t first)
     const kiriLink* next = u->links->next.data;
     int32_t at = FirstOfPair(next, u->links->next.count, i, j);
     bool isLinked = at < u->links->next.count && IsOfPair(&next[at], i, j);
-    for (int32_t k = first; !isLinked && k < u->work->made.count; ++k) {
+    KIRI_FROM_TO_WHILE(!isLinked, k, first, u->work->made.count) {
         isLinked = IsOfPair(&u->work->made.data[k].link, i, j);
     }
     return isLinked;

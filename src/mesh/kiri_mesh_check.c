@@ -88,8 +88,8 @@ static bool AreSourceCorners(const kiriMeshData* mesh)
     bool areFine = mesh->sources.count > 0
                        ? 3 * (int64_t)mesh->sources.count == mesh->sourceCorners.count && mesh->sourceBlocks.count == 0
                        : mesh->sourceCorners.count % (3 * KIRI_SOURCES_A_BLOCK) == 0;
-    KIRI_EACH_INDEX_WHILE(areFine, k, mesh->sourceBlocks) {
-        areFine = mesh->sourceBlocks.data[k] >= KIRI_NONE && mesh->sourceBlocks.data[k] < count;
+    KIRI_EACH_LISTED_WHILE(areFine, block, mesh->sourceBlocks) {
+        areFine = block >= KIRI_NONE && block < count;
     }
     for (int32_t k = 0; areFine && k < mesh->sourceCorners.count; k += 3) {
         const kiriLatticePoint* c = &mesh->sourceCorners.data[k];
@@ -193,8 +193,8 @@ static bool AreFolds(const kiriMeshData* mesh)
     }
     KIRI_TIMES_WHILE(areFine, h, 3 * mesh->triangles.count) {
         bool isClaimed = !kiriMesh_IsCrease(mesh, h);
-        KIRI_EACH_INDEX_WHILE(!isClaimed, f, mesh->folds) {
-            isClaimed = kiriFoldLine_Has(&mesh->folds.data[f], kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));
+        KIRI_EACH_WHILE(!isClaimed, const kiriFoldLine, fold, mesh->folds) {
+            isClaimed = kiriFoldLine_Has(fold, kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));
         }
         areFine = isClaimed;
     }

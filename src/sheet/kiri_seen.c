@@ -181,7 +181,7 @@ static void FindMovers(kiriSheetData* sheet)
         int32_t mover = blocks->movers.data[block];
         bool isKnown = mover == KIRI_NONE ? !anyWoke : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
         int32_t end = kiriMin((block + 1) * KIRI_BLOCK, sheet->seen.surface.vertexCount);
-        for (int32_t v = block * KIRI_BLOCK; !isKnown && v < end; ++v) {
+        KIRI_FROM_TO_WHILE(!isKnown, v, block * KIRI_BLOCK, end) {
             mover = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
             isKnown = blocks->moved.data[mover] != 0;
         }

@@ -167,7 +167,7 @@ bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const
 {
     int32_t same = kiriMin(past->same, vertices->first), count = vertices->count - same;
     int32_t* others = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
-    for (int32_t v = same; others != NULL && v < vertices->to.count; ++v) {
+    KIRI_FROM_TO_WHILE(others != NULL, v, same, vertices->to.count) {
         int32_t kept = kiriKeep_To(vertices, v);
         if (kept != KIRI_NONE) {
             others[kept - same] = kiriPast_IndexOf(past, v);

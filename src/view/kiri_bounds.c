@@ -172,7 +172,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
             }
             int32_t first, end = LeafItems(bounds, level, node, &first);
             kiriBox box = level == 0 ? BoxOfLeaf(surface, &bounds->order.data[first], end - first) : KIRI_EMPTY_BOX;
-            for (int32_t i = first; level > 0 && i < end; ++i) {
+            KIRI_FROM_TO_WHILE(level > 0, i, first, end) {
                 box.lower = kiriVec3_Least(nodes[i].lower, box.lower);
                 box.upper = kiriVec3_Most(nodes[i].upper, box.upper);
             }
@@ -190,7 +190,7 @@ static void MakeTree(kiriBounds* bounds, const kiriSurface* surface)
     bool sorts = NeedsSorting(bounds, count);
     bounds->nodes.count = LayLevels(count, bounds->firsts, &bounds->levelCount);
     KIRI_ASSERT(bounds->order.capacity >= count && bounds->nodes.capacity >= bounds->nodes.count);
-    for (int32_t t = bounds->order.count; !sorts && t < count; ++t) {
+    KIRI_FROM_TO_WHILE(!sorts, t, bounds->order.count, count) {
         bounds->order.data[t] = t;
     }
     bounds->order.count = count;
@@ -209,7 +209,7 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
         KIRI_FROM_TO(node, bounds->firsts[level], EndOfLevel(bounds, level)) {
             int32_t first, end = LeafItems(bounds, level, node, &first);
             moves[node] = 0;
-            for (int32_t i = first; !moves[node] && i < end; ++i) {
+            KIRI_FROM_TO_WHILE(!moves[node], i, first, end) {
                 int32_t vertex = level > 0 ? 0 : surface->indices.data[3 * bounds->order.data[i]];
                 moves[node] = level > 0 ? moves[i] : movers->data[vertex / movers->block] != KIRI_NONE;
             }

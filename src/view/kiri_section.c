@@ -335,8 +335,8 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
     section->points.count = section->lines.count = 0;
     bool ok = bounds->levelCount == 0 || !MakeViews(&p, bounds) ||
               kiriBounds_Find(bounds, surface, MeetsSweep, &p, memory, &p.triangles);
-    KIRI_EACH_INDEX_WHILE(ok, i, p.triangles) {
-        ok = CrossTriangle(&p, p.triangles.data[i]);
+    KIRI_EACH_LISTED_WHILE(ok, triangle, p.triangles) {
+        ok = CrossTriangle(&p, triangle);
     }
     if (ok) {
         LinkPieces(&p);

@@ -218,7 +218,7 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
 bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end)
 {
     bool mayMove = false;
-    for (int32_t s = begin; patches->areOther && !mayMove && s < end; ++s) {
+    KIRI_FROM_TO_WHILE(patches->areOther && !mayMove, s, begin, end) {
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[s].first;
         const kiriSampleWeight* last = weight + skin->spans.data[s].count;
         for (; weight < last; ++weight) {
@@ -279,7 +279,7 @@ void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, c
                              int32_t end, float* positions)
 {
     const float* rows = patches->floats.data;
-    for (int32_t v = begin; !patches->isBent && v < end; ++v) {
+    KIRI_FROM_TO_WHILE(!patches->isBent, v, begin, end) {
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[v].first;
         const kiriSampleWeight* last = weight + skin->spans.data[v].count;
         kiriLanes px = kiriLanes_Splat((float)rest[v].x), py = kiriLanes_Splat((float)rest[v].y);
@@ -292,7 +292,7 @@ void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, c
         }
         kiriLanes_StoreThree(positions + 3 * v, sum);
     }
-    for (int32_t v = begin; patches->isBent && v < end; ++v) {
+    KIRI_FROM_TO_WHILE(patches->isBent, v, begin, end) {
         const kiriSampleWeight* first = skin->weights.data + skin->spans.data[v].first;
         kiriLanes at = BlendBent(rows, first, first + skin->spans.data[v].count, rest[v]);
         kiriLanes_StoreThree(positions + 3 * v, at);

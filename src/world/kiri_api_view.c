@@ -198,11 +198,11 @@ kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], cons
     *sheet = 0;
     KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
-    KIRI_EACH_INDEX(i, world->sheets) {
+    KIRI_EACH_OF(kiriSheetData, other, world->sheets) {
         kiriHit next;
-        CastRay(world->sheets.data[i], origin, direction, maxDistance, &next);
+        CastRay(other, origin, direction, maxDistance, &next);
         if (next.triangle != KIRI_NONE && (*sheet == 0 || next.distance < hit->distance)) {
-            *sheet = world->sheets.data[i]->id;
+            *sheet = other->id;
             *hit = next;
             maxDistance = next.distance;
         }

@@ -295,8 +295,8 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
     KIRI_CHANGES(World_SetGravity, gravity);
     kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
-    KIRI_EACH_INDEX_WHILE(!kiriVec3_Equal(before, world->gravity), i, world->sheets) {
-        kiriSheet_WakeAll(world->sheets.data[i]);
+    KIRI_EACH_OF_WHILE(!kiriVec3_Equal(before, world->gravity), kiriSheetData, sheet, world->sheets) {
+        kiriSheet_WakeAll(sheet);
     }
     KIRI_RETURN(KIRI_OK);
 }

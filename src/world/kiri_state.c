@@ -150,13 +150,13 @@ enum { SAVE_VERSION = 4, HEAD_BYTES = 24, SUM_BYTES = 8 };
 
 static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 {
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->sheets) {
+    KIRI_EACH_WHILE(!kiriArchive_HasFailed(archive), kiriSheetData*, sheet, world->sheets) {
         if (kiriArchive_Reads(archive)) {
-            world->sheets.data[i] = kiriSheet_New(&world->memory);
-            archive->isShort |= world->sheets.data[i] == NULL;
+            *sheet = kiriSheet_New(&world->memory);
+            archive->isShort |= *sheet == NULL;
         }
-        if (world->sheets.data[i] != NULL) {
-            kiriSheet_Archive(archive, world->sheets.data[i], &world->memory);
+        if (*sheet != NULL) {
+            kiriSheet_Archive(archive, *sheet, &world->memory);
         }
     }
 }
@@ -180,14 +180,14 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 {
     archive->memory = &world->memory;
     kiriArchive_Object(archive, WorldTable, world);
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->obstacles) {
-        kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
+    KIRI_EACH_WHILE(!kiriArchive_HasFailed(archive), kiriObstacleData*, obstacle, world->obstacles) {
+        kiriObstacle_Archive(archive, obstacle, &world->memory);
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->blades) {
-        ArchiveBlock(archive, &world->memory, &world->blades.data[i], BladeDataTable);
+    KIRI_EACH_WHILE(!kiriArchive_HasFailed(archive), kiriBladeData*, blade, world->blades) {
+        ArchiveBlock(archive, &world->memory, blade, BladeDataTable);
     }
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->seams) {
-        ArchiveBlock(archive, &world->memory, &world->seams.data[i], SeamTable);
+    KIRI_EACH_WHILE(!kiriArchive_HasFailed(archive), kiriSeamData*, seam, world->seams) {
+        ArchiveBlock(archive, &world->memory, seam, SeamTable);
     }
     ArchiveSheets(archive, world);
 }
