@@ -322,9 +322,8 @@ kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw
             DrawSheet(&drawing, sheet);
         }
     }
-    bool drawsObstacles = only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0;
-    KIRI_EACH_OF_WHILE(drawsObstacles, kiriObstacleData, obstacle, world->obstacles) {
-        DrawObstacle(&drawing, obstacle);
+    KIRI_EACH_INDEX_WHILE(only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0, i, world->obstacles) {
+        DrawObstacle(&drawing, world->obstacles.data[i]);
     }
     KIRI_EACH_OF_WHILE(only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0, kiriBladeData, blade, world->blades) {
         if (blade->isPlaced) {
