@@ -134,6 +134,17 @@ static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
     return r;
 }
 
+static inline kiriVec2 kiriVec2_Load(const float* f)
+{
+    return kiriVec2_Make(f[0], f[1]);
+}
+
+static inline void kiriVec2_Store(float* f, kiriVec2 a)
+{
+    f[0] = (float)a.x;
+    f[1] = (float)a.y;
+}
+
 static inline kiriVec3 kiriVec3_Load(const float* f)
 {
     return kiriVec3_Make(f[0], f[1], f[2]);

@@ -141,9 +141,9 @@ static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, 
         return KIRI_ERROR_MESH;
     }
     KIRI_TIMES(v, input->vertexCount) {
-        const float* p = &input->positions[2 * (int64_t)v];
         if (welded->to[v] != KIRI_NONE) {
-            welded->at[v] = kiriMesh_Snap(mesh, kiriVec2_Sub(kiriVec2_Make(p[0], p[1]), mesh->origin));
+            kiriVec2 p = kiriVec2_Load(&input->positions[2 * (int64_t)v]);
+            welded->at[v] = kiriMesh_Snap(mesh, kiriVec2_Sub(p, mesh->origin));
         }
     }
     *extent = kiriMesh_Snap(mesh, kiriVec2_Make(width, height));

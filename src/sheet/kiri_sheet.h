@@ -565,7 +565,7 @@ void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory);
 
 static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float rest[2])
 {
-    return kiriVec2_Make(rest[0] - sheet->mesh.origin.x, rest[1] - sheet->mesh.origin.y);
+    return kiriVec2_Sub(kiriVec2_Load(rest), sheet->mesh.origin);
 }
 
 /* Returns the piece of a frame. */

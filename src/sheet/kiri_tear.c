@@ -295,7 +295,7 @@ static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, cons
 static double TakenAlong(const kiriSheetData* sheet, kiriVec2 along)
 {
     const kiriTearing* tearing = &sheet->settings.tearing;
-    kiriVec2 grain = { (double)tearing->grain[0], (double)tearing->grain[1] };
+    kiriVec2 grain = kiriVec2_Load(tearing->grain);
     double square = kiriVec2_Dot(grain, grain), sine = kiriVec2_Cross(grain, along);
     double across = square > 0.0 ? (tearing->grainRatio - 1.0) * sine * sine / square : 0.0;
     return tearing->toughness * (double)sheet->settings.material.thickness * (1.0 + kiriMax(across, 0.0));

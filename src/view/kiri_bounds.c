@@ -635,8 +635,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     KIRI_TIMES(k, 3) {
         rest = kiriVec2_AddScaled(rest, search.share[k], surface->rest.data[v[k]]);
     }
-    hit->restPoint[0] = (float)rest.x;
-    hit->restPoint[1] = (float)rest.y;
+    kiriVec2_Store(hit->restPoint, rest);
     kiriVec3_Store(hit->position,
                    kiriVec3_AddScaled(kiriVec3_AddScaled(corner[0], search.share[1], ab), search.share[2], ac));
     kiriVec3_Store(hit->normal, kiriVec3_Normalize(kiriVec3_Cross(ab, ac)));

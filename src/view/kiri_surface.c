@@ -287,10 +287,8 @@ void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t 
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
     KIRI_FROM_TO(v, firstVertex, surface->vertexCount) {
-        kiriVec2 local = kiriMesh_LocalOf(mesh, v), rest = kiriVec2_Add(mesh->origin, local);
-        surface->rest.data[v] = local;
-        surface->restPositions.data[2 * v] = (float)rest.x;
-        surface->restPositions.data[2 * v + 1] = (float)rest.y;
+        surface->rest.data[v] = kiriMesh_LocalOf(mesh, v);
+        kiriVec2_Store(&surface->restPositions.data[2 * v], kiriVec2_Add(mesh->origin, surface->rest.data[v]));
         WriteSource(surface, mesh, v);
     }
     KIRI_FROM_TO(t, firstTriangle, surface->triangleCount) {

@@ -26,7 +26,7 @@ static void FillOutline(kiriObstacleShape* shape, const kiriObstacleDef* def)
     const kiriVec2 box[4] = { { -x, -y }, { x, -y }, { x, y }, { -x, y } };
     KIRI_EACH_INDEX(i, *shape) {
         bool isBox = def->type == KIRI_OBSTACLE_BOX;
-        shape->outline[i] = isBox ? box[i] : kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
+        shape->outline[i] = isBox ? box[i] : kiriVec2_Load(&def->outline[2 * i]);
     }
     KIRI_EACH_INDEX(i, *shape) {
         kiriVec2 along = kiriVec2_Sub(shape->outline[(i + 1) % shape->count], shape->outline[i]);
@@ -251,11 +251,7 @@ void kiriDefaultPinDef(kiriPinDef* def)
 
 static kiriPinData MakePin(int32_t type)
 {
-    kiriPinData pin = { 0 };
-    pin.type = type;
-    pin.rotation.u.x = pin.rotation.v.y = pin.rotation.d.z = 1.0;
-    pin.lastRotation = pin.rotation;
-    return pin;
+    return (kiriPinData){ .type = type, .rotation = KIRI_AXES, .lastRotation = KIRI_AXES };
 }
 
 static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
@@ -392,9 +388,7 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
 
 static void StoreRest(const kiriSheetData* sheet, kiriLatticePoint at, float rest[2])
 {
-    kiriVec2 point = kiriVec2_Add(sheet->mesh.origin, kiriMesh_Local(&sheet->mesh, at));
-    rest[0] = (float)point.x;
-    rest[1] = (float)point.y;
+    kiriVec2_Store(rest, kiriVec2_Add(sheet->mesh.origin, kiriMesh_Local(&sheet->mesh, at)));
 }
 
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state)

@@ -303,10 +303,8 @@ kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrame
     KIRI_READS_OF(frame, state);
     KIRI_ASSERT(slot->index < found->frames.count && found->frames.data[slot->index].id == frame);
     const kiriFrameData* data = &found->frames.data[slot->index];
-    kiriVec2 rest = kiriVec2_Add(found->mesh.origin, data->site.at);
     kiriVec3 x = kiriFrame_Carry(data, data->site.at);
-    state->restPoint[0] = (float)rest.x;
-    state->restPoint[1] = (float)rest.y;
+    kiriVec2_Store(state->restPoint, kiriVec2_Add(found->mesh.origin, data->site.at));
     kiriVec3_Store(state->position, x);
     kiriMat3_Store(state->rotation, data->A);
     kiriVec3_Store(state->velocity, kiriFrame_VelocityAt(data, data->site.at));

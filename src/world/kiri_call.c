@@ -70,7 +70,7 @@ static kiriVec2 OutlineCorner(const kiriObstacleDef* def, int32_t i)
 {
     KIRI_ASSERT(def->outline != NULL && def->outlineCount >= 3);
     i %= def->outlineCount;
-    return kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
+    return kiriVec2_Load(&def->outline[2 * i]);
 }
 
 /* Tests that every corner lies to the left of every edge, but for rounding of floats, and that no edge is a point. */

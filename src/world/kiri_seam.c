@@ -202,7 +202,7 @@ typedef struct SeamLine {
 static kiriVec2 LinePoint(const SeamLine* line, int32_t i)
 {
     KIRI_ASSERT_HAS(*line, i);
-    return kiriVec2_Make(line->points[2 * i], line->points[2 * i + 1]);
+    return kiriVec2_Load(&line->points[2 * i]);
 }
 
 static double LengthAfter(const SeamLine* line, int32_t i)
@@ -238,7 +238,8 @@ static bool PlaceEnd(const SeamLine* line, double along, kiriStitchData* stitch,
     }
     double length = kiriVec2_Length(way);
     kiriVec2 point = kiriVec2_AddScaled(from, length > 0.0 ? kiriMin(along / length, 1.0) : 0.0, way);
-    const float rest[2] = { (float)point.x, (float)point.y };
+    float rest[2];
+    kiriVec2_Store(rest, point);
     kiriLatticePoint at;
     bool isFound = false;
     KIRI_TIMES_WHILE(!isFound && kiriSheet_ToLattice(sheet, rest, &at), k, 9) {
