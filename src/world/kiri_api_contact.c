@@ -249,11 +249,6 @@ void kiriDefaultPinDef(kiriPinDef* def)
     }
 }
 
-static kiriPinData MakePin(int32_t type)
-{
-    return (kiriPinData){ .type = type, .rotation = KIRI_AXES, .lastRotation = KIRI_AXES };
-}
-
 static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPinData* made, int32_t frame, kiriPin* pin)
 {
     kiriResult result = kiriWorld_ReserveIds(world, &world->pinIds, 1);
@@ -276,7 +271,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
 {
     KIRI_CHANGES(CreatePin, &sheet, def, pin);
     kiriSheetData* data = call->sheet;
-    kiriPinData made = MakePin(KIRI_PIN_POINT);
+    kiriPinData made = { .type = KIRI_PIN_POINT, .rotation = KIRI_AXES, .lastRotation = KIRI_AXES };
     bool inRange = kiriSheet_ToLattice(data, def->restPoint, &made.at);
     int32_t frame = inRange ? kiriOwner_At(data, made.at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
@@ -312,7 +307,7 @@ static kiriResult HoldLine(kiriCall* call, int32_t type, const float from[2], co
 {
     const char* why;
     KIRI_ASSERT(type == KIRI_PIN_CLAMP || type == KIRI_PIN_HINGE);
-    kiriPinData made = MakePin(type);
+    kiriPinData made = { .type = type, .rotation = KIRI_AXES };
     kiriLatticePoint ends[2];
     kiriResult result = kiriCall_FindLine(call->sheet, from, to, ends, &why);
     if (result == KIRI_OK) {
