@@ -1422,7 +1422,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 2900;
+        public const int Version = 3000;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
