@@ -529,7 +529,7 @@ TEST(NamesWhatWeldingDoes)
     Refuse(&host, &A, 0.0f, KIRI_ERROR_ARGUMENT, "triangle 1 has vertex -1, which is not within 0 and 4");
     A.indices[4] = 3;
     A.rest[8] = NAN;
-    Refuse(&host, &A, 0.0f, KIRI_ERROR_ARGUMENT, "vertex 4 is not finite");
+    Refuse(&host, &A, 0.0f, KIRI_ERROR_ARGUMENT, "restPositions[8] is NaN, not finite");
 }
 
 /* A line names the call that the host made. */
