@@ -324,7 +324,7 @@ gallery: packages-gallery trade
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
 	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --pictures build/gallery/curtain
 	$(PLAY) $(NET_FILM) $(PLAY_FILM) --pictures build/gallery/net
-	$(foreach film,curtain net $(FILMS),$(call JOIN,$(film));)
+	set -e; $(foreach film,curtain net $(FILMS),$(call JOIN,$(film));)
 	$(BOX2D) --size 800x600 --ticks 180 --every 30 --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	cp build/accuracy/trade.png samples/pictures/

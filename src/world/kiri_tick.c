@@ -381,9 +381,9 @@ static void SkinAll(kiriWorld* world, double dt)
             kiriFault advice;
             kiriWorld_AddEvent(world, KIRI_EVENT_STRAINED, sheet)->area = (float)strained;
             KIRI_SAY(&advice,
-                     "kiriWorld_Tick: %lld cm^2 of sheet %lld are strained by more than %s: more frames, smooth "
+                     "kiriWorld_Tick: a tenth of sheet %lld or more is strained by over %s: more frames, smooth "
                      "skinning or detail may help (KIRI_EVENT_STRAINED)",
-                     (long long)(1e4 * strained), (long long)sheet->id, "15 %");
+                     (long long)sheet->id, "15 %");
             kiriWorld_Log(world, advice.line);
         }
     }
