@@ -514,7 +514,7 @@ type Material struct {
 	Thickness float32
 	// kg/m^3, above 0
 	Density float32
-	// 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
+	// 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
@@ -888,7 +888,7 @@ type FrameState struct {
 }
 
 // Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density
-// / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.
+// / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)); airDamping acts in any density. A sheet can sleep in wind.
 type Wind struct {
 	// m/s
 	Velocity [3]float32

@@ -412,7 +412,7 @@ export class Material {
     thickness: number;
     /** kg/m^3, above 0 */
     density: number;
-    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
+    /** 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets) */
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
@@ -437,7 +437,7 @@ export interface MaterialGiven {
     thickness?: number;
     /** kg/m^3, above 0 */
     density?: number;
-    /** 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
+    /** 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets) */
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;

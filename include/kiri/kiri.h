@@ -271,7 +271,7 @@ typedef struct kiriMaterial {
     float poissonsRatio; /* 0 to below 0.5 */
     float thickness;     /* m, above 0 */
     float density;       /* kg/m^3, above 0 */
-    float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets) */
+    float airDamping;    /* 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     float yieldStress; /* Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
@@ -746,7 +746,7 @@ KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, co
                                            const float impulse[3]);
 
 /* Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density /
-   2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind. */
+   2 times |v| (drag (v.n) n + lift (v - (v.n) n)); airDamping acts in any density. A sheet can sleep in wind. */
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; air: 1.2 */

@@ -549,16 +549,19 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     solver->isAlong = solver->isHeld = solver->isPut = false;
     solver->search.scale = 1.0;
     /* Air damping is applied first, so it only takes energy, whatever gravity does to the velocity. The second-order
-       form equals exp(-z) up to the third power of z. */
+       form equals exp(-z) up to the third power of z. Moving air adds the force that ends the fade at its velocity. */
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     KIRI_TIMES(f, system->frameCount) {
         double z = dt * (double)kiriSystem_MaterialOf(system, f)->airDamping;
         double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
-        const kiriFrameData* frame = solver->sources.data[f];
-        kiriFrameData* before = &solver->before.data[f];
-        solver->isHeld |= frame->held != 0;
-        solver->start.data[f] = kiriPose_Of(frame);
-        *before = FlattenFrame(&system->mechanics, frame);
+        const kiriAir* air = kiriSystem_AirOf(system, f);
+        kiriFrameData frame = *solver->sources.data[f], *before = &solver->before.data[f];
+        solver->isHeld |= frame.held != 0;
+        solver->start.data[f] = kiriPose_Of(&frame);
+        if (air != NULL) {
+            frame.force = kiriVec3_AddScaled(frame.force, frame.mass * (1.0 - fade) / dt, air->velocity);
+        }
+        *before = FlattenFrame(&system->mechanics, &frame);
         before->velocity = kiriVec3_Scale(fade, before->velocity);
         before->spin = kiriVec3_Scale(fade, before->spin);
         before->rate = kiriMat3_Scale(fade, &before->rate);

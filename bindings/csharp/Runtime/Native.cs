@@ -702,7 +702,7 @@ namespace Kiri
         public float Thickness;
         /// <summary>kg/m^3, above 0</summary>
         public float Density;
-        /// <summary>1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)</summary>
+        /// <summary>1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)</summary>
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
@@ -1132,7 +1132,8 @@ namespace Kiri
     }
 
     /// <summary>Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets
-    /// density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.</summary>
+    /// density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)); airDamping acts in any density. A sheet can sleep in
+    /// wind.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Wind
     {

@@ -166,7 +166,7 @@ kiri.DRAW_ALL = 2047
 ---@field poissonsRatio? number # 0 to below 0.5
 ---@field thickness? number # m, above 0
 ---@field density? number # kg/m^3, above 0
----@field airDamping? number # 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
+---@field airDamping? number # 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)
 ---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 ---@field yieldStress? number # Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
@@ -385,7 +385,7 @@ kiri.DRAW_ALL = 2047
 ---@field held? boolean|integer # 1: moved by the host, see kiriFrame_Hold
 
 --- Air past the sheet. v is the velocity of the air less the material's, n the normal: each square metre gets density
---- / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in wind.
+--- / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)); airDamping acts in any density. A sheet can sleep in wind.
 ---@class kiri.Wind
 ---@field velocity? number[]|ffi.cdata* # m/s
 ---@field density? number # kg/m^3, 0 or more; air: 1.2

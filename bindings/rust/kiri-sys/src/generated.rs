@@ -374,7 +374,7 @@ pub struct kiriMaterial {
     pub thickness: f32,
     /// kg/m^3, above 0
     pub density: f32,
-    /// 1/s, 0 or more: velocities fade as exp(-airDamping t) (manual, sheets)
+    /// 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
@@ -809,8 +809,8 @@ pub struct kiriFrameState {
 }
 
 /// Air past the sheet. v is the velocity of the air less the material's, n the normal: each square
-/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet
-/// can sleep in wind.
+/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)); airDamping acts in any
+/// density. A sheet can sleep in wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriWind {

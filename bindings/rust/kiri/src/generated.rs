@@ -792,7 +792,7 @@ pub struct Material {
     pub thickness: f32,
     /// kg/m^3, above 0
     pub density: f32,
-    /// 1/s, 0 or more: velocities fade as exp(-`air_damping` t) (manual, sheets)
+    /// 1/s, 0 or more: velocities fade to the air's, as exp(-`air_damping` t) (manual, sheets)
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
@@ -1752,8 +1752,8 @@ impl FrameState {
 }
 
 /// Air past the sheet. v is the velocity of the air less the material's, n the normal: each square
-/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet
-/// can sleep in wind.
+/// metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)); `air_damping` acts in any
+/// density. A sheet can sleep in wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Wind {
