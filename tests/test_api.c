@@ -971,10 +971,19 @@ TEST(LinesNameArguments)
     SAYS(kiriPin_SetBreakForce(w, s.given.pin, -0.125f),
          "kiriPin_SetBreakForce: breakForce is -0.125, not 0 or more (KIRI_ERROR_ARGUMENT)");
     SAYS(kiriCreateObstacle(w, &sphere, &id),
-         "kiriCreateObstacle: def has a radius that is not above 0 and up to 1e6 (KIRI_ERROR_ARGUMENT)");
+         "kiriCreateObstacle: def.radius is 0, not above 0 and up to 1000000 (KIRI_ERROR_ARGUMENT)");
+    sphere.radius = 1.0f;
     sphere.position[1] = -2e38f;
     SAYS(kiriCreateObstacle(w, &sphere, &id), "kiriCreateObstacle: def.position[1] is -2e38, not within -4.2535e37 and "
                                               "4.2535e37 (KIRI_ERROR_ARGUMENT)");
+    kiriFoldState fold;
+    int64_t size;
+    SAYS(kiriWorld_Tick(w, 20.0f, 1), "kiriWorld_Tick: dt is 20, not within 1e-6 and 10 (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriCreateRectangle(w, 1.0f, -2.0f, 1, 1, &def, &id),
+         "kiriCreateRectangle: height is -2, not above 0 (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriSheet_GetFold(w, s.given.sheet, 0, &fold),
+         "kiriSheet_GetFold: index is 0, and there is none (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriWorld_Save(w, NULL, -3, &size), "kiriWorld_Save: capacity is -3, not 0 or more (KIRI_ERROR_ARGUMENT)");
     def.material.density = -INFINITY;
     SAYS(kiriCreateRectangle(w, 1.0f, 1.0f, 1, 1, &def, &id),
          "kiriCreateRectangle: def.material.density is -infinity, not above 0 (KIRI_ERROR_ARGUMENT)");

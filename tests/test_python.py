@@ -496,7 +496,7 @@ def test_log():
 def test_error_has_the_line_of_its_call():
     world, sheet, cut = make_scene()
     tick = str(raises(kiri.KiriError, world.tick, -1.0))
-    assert tick == "World.tick: dt is not within 1e-6 and 10 s (KIRI_ERROR_ARGUMENT)"
+    assert tick == "World.tick: dt is -1, not within 1e-6 and 10 (KIRI_ERROR_ARGUMENT)"
     assert str(raises(kiri.KiriError, sheet.raycast, (0, 0, 0), (0, 0, 0), 1.0)).startswith("Sheet.raycast: ")
     assert str(raises(kiri.KiriError, cut.end)).startswith("Cut.end: ")
     made = str(raises(kiri.KiriError, world.create_rectangle, 1.0, 1.0, 1, 1, frameCount=-3))

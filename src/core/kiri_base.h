@@ -249,7 +249,7 @@ KIRI_C_END
 KIRI_C_BEGIN
 
 typedef struct kiriFault {
-    char line[160]; /* "": the result code is enough */
+    char line[208]; /* "": the result code is enough */
 } kiriFault;
 
 /* Writes the line. Numbers are long long: snprintf of the web build reads %s and %lld only. */

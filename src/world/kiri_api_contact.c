@@ -176,7 +176,7 @@ kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt,
 {
     KIRI_READS_OF(sheet, lower);
     KIRI_CHECK_OUT(upper);
-    KIRI_CHECK(dt >= 1e-6f && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
+    KIRI_CHECK_NUMBER(dt, 1e-6f, 10.0f);
     kiriBox box = kiriSheet_Box(found);
     double speed = kiriSheet_SpeedLimit(found, &box);
     double reach = kiriReach_Of(speed, world->gravity, dt) + found->settings.contactThickness;
@@ -433,7 +433,7 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
     KIRI_CHECK_OUT(stitch);
     KIRI_FIND_SLOT(seam);
     const kiriSeamData* data = slot->owner;
-    KIRI_CHECK(index >= 0 && index < data->stitches.count, "no stitch has this index");
+    KIRI_CHECK_NUMBER(index, 0, data->stitches.count - 1);
     const kiriStitchData* from = &data->stitches.data[index];
     const kiriSheetData *a = kiriStitch_Sheet(world, from, 0), *b = kiriStitch_Sheet(world, from, 1);
     kiriVec3 x = kiriStitch_Point(world, data, index, 0), y = kiriStitch_Point(world, data, index, 1);

@@ -59,16 +59,12 @@ kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
     KIRI_RETURN(KIRI_OK);
 }
 
-static bool IsRectangle(float width, float height, int32_t columns, int32_t rows)
-{
-    return width > 0.0f && width <= FLT_MAX && height > 0.0f && height <= FLT_MAX && columns >= 1 && columns <= 4096 &&
-           rows >= 1 && rows <= 4096;
-}
-
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                              int32_t* indices)
 {
-    if (!IsRectangle(width, height, columns, rows) || restPositions == NULL || indices == NULL) {
+    bool isRectangle = width > 0.0f && width <= FLT_MAX && height > 0.0f && height <= FLT_MAX && columns >= 1 &&
+                       columns <= 4096 && rows >= 1 && rows <= 4096;
+    if (!isRectangle || restPositions == NULL || indices == NULL) {
         return KIRI_ERROR_ARGUMENT;
     }
     for (int32_t j = 0; j <= rows; ++j) {
@@ -102,8 +98,10 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
     if (def != NULL) {
         filled = *def;
     }
-    KIRI_CHECK(IsRectangle(width, height, columns == 0 ? 1 : columns, rows == 0 ? 1 : rows),
-               "width or height is not above 0, or columns or rows not within 0 and 4096");
+    KIRI_CHECK_NUMBER(width, KIRI_ABOVE_0, FLT_MAX);
+    KIRI_CHECK_NUMBER(height, KIRI_ABOVE_0, FLT_MAX);
+    KIRI_CHECK_NUMBER(columns, 0, 4096);
+    KIRI_CHECK_NUMBER(rows, 0, 4096);
     bool isGrid = filled.gridResolution >= 1 && filled.gridResolution <= 4096;
     double squares = isGrid ? 1.5 * filled.gridResolution / kiriMax(width, height) : 0.0; /* a metre */
     columns = columns != 0 ? columns : kiriMax(1, kiriMin(4096, (int32_t)(squares * width + 0.5)));
@@ -231,7 +229,7 @@ kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[
     KIRI_PREPARES(world);                                                                                              \
     KIRI_CHECK_OUT(out);                                                                                               \
     KIRI_FIND(sheet);                                                                                                  \
-    KIRI_CHECK((piece) >= 0 && (piece) < found->layout.pieces.count, "the sheet has no such piece");                   \
+    KIRI_CHECK_NUMBER(piece, 0, found->layout.pieces.count - 1);                                                       \
     KIRI_REQUIRE(isListed, KIRI_ERROR_MEMORY, NULL)
 
 kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state)
@@ -730,7 +728,7 @@ kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* 
 kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state)
 {
     KIRI_READS_OF(sheet, state);
-    KIRI_CHECK(index >= 0 && index < found->mesh.folds.count, "there is no fold with this index");
+    KIRI_CHECK_NUMBER(index, 0, found->mesh.folds.count - 1);
     const kiriFoldLine* line = &found->mesh.folds.data[index];
     kiriVec2 from = kiriVec2_Add(found->mesh.origin, kiriMesh_Local(&found->mesh, line->from));
     kiriVec2 to = kiriVec2_Add(found->mesh.origin, kiriMesh_Local(&found->mesh, line->to));
@@ -757,7 +755,7 @@ kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, f
 {
     KIRI_CHANGES(Sheet_SetFold, &sheet, &index, &stiffness, &restAngle);
     kiriSheetData* data = call->sheet;
-    KIRI_CHECK(index >= 0 && index < data->mesh.folds.count, "there is no fold with this index");
+    KIRI_CHECK_NUMBER(index, 0, data->mesh.folds.count - 1);
     kiriFoldLine* line = &data->mesh.folds.data[index];
     if (line->stiffness != stiffness || line->restAngle != restAngle) {
         line->stiffness = stiffness;

@@ -38,7 +38,7 @@ kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness
 {
     KIRI_PREPARES(world);
     KIRI_CHECK_OUT(solid);
-    KIRI_CHECK(thickness >= 0.0f && thickness <= FLT_MAX, "thickness is not finite, or below 0");
+    KIRI_CHECK_NUMBER(thickness, 0.0f, FLT_MAX);
     KIRI_FIND(sheet);
     kiriSurface_NeedNormals(&found->seen.surface);
     double thick = thickness > 0.0f ? thickness : found->settings.material.thickness;
@@ -46,20 +46,19 @@ kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness
     KIRI_RETURN(ok ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 
-/* Tests whether items first to first + count - 1 are among all. */
-static bool IsRange(int32_t first, int32_t count, int32_t all)
-{
-    return first >= 0 && count >= 0 && first <= all && count <= all - first;
-}
+/* Checks that items first to first + count - 1 are among all. */
+#define CHECK_RANGE(first, count, all)                                                                                 \
+    KIRI_CHECK_NUMBER(first, 0, all);                                                                                  \
+    KIRI_CHECK_NUMBER(count, 0, (all) - (first))
 
 kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                   void* positions, int32_t positionStride, void* normals, int32_t normalStride)
 {
     KIRI_READS(world);
-    KIRI_CHECK((positions == NULL || positionStride >= 12) && (normals == NULL || normalStride >= 12),
-               "a stride is below 12 bytes");
+    KIRI_CHECK_NUMBER(positionStride, positions == NULL ? INT32_MIN : 12, INT32_MAX);
+    KIRI_CHECK_NUMBER(normalStride, normals == NULL ? INT32_MIN : 12, INT32_MAX);
     KIRI_FIND(sheet);
-    KIRI_CHECK(IsRange(first, count, found->seen.surface.vertexCount), "the sheet has no such vertices");
+    CHECK_RANGE(first, count, found->seen.surface.vertexCount);
     KIRI_REQUIRE(normals == NULL || found->seen.surface.wantsNormals, KIRI_ERROR_STATE, "the sheet makes no normals");
     kiriSurface_CopyVertices(&found->seen.surface, first, count, positions, positionStride, normals, normalStride);
     return KIRI_OK;
@@ -71,7 +70,7 @@ kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32
     KIRI_READS(world);
     KIRI_CHECK((count == 0 || vertices != NULL) && from != NULL, "vertices or from is null");
     KIRI_FIND(sheet);
-    KIRI_CHECK(IsRange(first, count, found->seen.surface.vertexCount), "the sheet has no such vertices");
+    CHECK_RANGE(first, count, found->seen.surface.vertexCount);
     const kiriPast past = kiriPast_At(&found->past, world->begun);
     KIRI_TIMES(i, count) {
         vertices[i] = kiriPast_IndexOf(&past, first + i);
@@ -85,7 +84,7 @@ kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32
     KIRI_READS(world);                                                                                                 \
     KIRI_CHECK(count == 0 || (out) != NULL, #out " is null");                                                          \
     KIRI_FIND(sheet);                                                                                                  \
-    KIRI_CHECK(IsRange(firstTriangle, count, found->seen.surface.triangleCount), "the sheet has no such triangles")
+    CHECK_RANGE(firstTriangle, count, found->seen.surface.triangleCount)
 
 kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                    uint16_t* indices)
@@ -167,7 +166,7 @@ kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
     KIRI_CHECK_OUT(hit);                                                                                               \
     KIRI_CHECK_FLOATS(origin, 3);                                                                                      \
     KIRI_CHECK_FLOATS(direction, 3);                                                                                   \
-    KIRI_CHECK(maxDistance >= 0.0f && maxDistance <= FLT_MAX, "maxDistance is not finite, or below 0");                \
+    KIRI_CHECK_NUMBER(maxDistance, 0.0f, FLT_MAX);                                                                     \
     KIRI_CHECK(direction[0] != 0.0f || direction[1] != 0.0f || direction[2] != 0.0f, "direction is zero")
 
 static void CastRay(const kiriSheetData* sheet, const float origin[3], const float direction[3], float maxDistance,

@@ -273,8 +273,8 @@ kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
     KIRI_CHANGES(World_Tick, &dt, &substeps);
     world->begun += 1; /* counts refused ticks: the host copies meshes before each call */
-    KIRI_CHECK(dt >= 1e-6f && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
-    KIRI_CHECK(substeps >= 1 && substeps <= 64, "substeps is not within 1 and 64");
+    KIRI_CHECK_NUMBER(dt, 1e-6f, 10.0f);
+    KIRI_CHECK_NUMBER(substeps, 1, 64);
     int64_t ticks = world->ticks;
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
     const char* why = result == KIRI_ERROR_MEMORY && world->ticks > ticks

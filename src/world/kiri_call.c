@@ -96,31 +96,15 @@ static bool IsConvex(const kiriObstacleDef* def)
 
 #define LONGEST 1e6 /* m */
 
-static bool IsLength(float value)
-{
-    return value > 0.0f && value <= LONGEST;
-}
-
 static const char* FaultOfObstacleDef(const void* value)
 {
     const kiriObstacleDef* def = value;
-    bool isPrism = def->type == KIRI_OBSTACLE_PRISM, isCylinder = def->type == KIRI_OBSTACLE_CYLINDER;
-    bool isCapsule = def->type == KIRI_OBSTACLE_CAPSULE;
-    if ((isCylinder || isCapsule || def->type == KIRI_OBSTACLE_SPHERE) && !IsLength(def->radius)) {
-        return "has a radius that is not above 0 and up to 1e6";
-    }
-    if (isCylinder && !IsLength(def->height)) {
-        return "has a height that is not above 0 and up to 1e6";
-    }
-    if ((isCapsule || isPrism) && !(def->height >= 0.0f && def->height <= LONGEST)) {
-        return "has a height that is not within 0 and 1e6";
-    }
-    if (def->type == KIRI_OBSTACLE_BOX &&
-        !(IsLength(def->size[0]) && IsLength(def->size[1]) && IsLength(def->size[2]))) {
-        return "has a size that is not above 0 and up to 1e6";
+    bool isPrism = def->type == KIRI_OBSTACLE_PRISM;
+    if (def->type == KIRI_OBSTACLE_CYLINDER && def->height == 0.0f) {
+        return "has a height of 0";
     }
     if (isPrism && (def->outline == NULL || def->outlineCount < 3)) {
-        return "has no outline, or an outlineCount that is not within 3 and 64";
+        return "has no outline of 3 corners or more";
     }
     return isPrism && !IsConvex(def) ? "has an outline that is not a convex polygon, counter-clockwise" : NULL;
 }
@@ -172,7 +156,8 @@ static const char* FaultOfStitches(const void* value)
 #define ANY_NUMBER WITHIN(1.0, 0.0)
 #define ANY_FINITE WITHIN(-FLT_MAX, FLT_MAX)
 #define FROM_0 WITHIN(0.0, FLT_MAX)
-#define ABOVE_0 WITHIN(1e-45, FLT_MAX) /* no positive float is less */
+#define ABOVE_0 WITHIN(KIRI_ABOVE_0, FLT_MAX)
+#define LENGTHS WITHIN(KIRI_ABOVE_0, LONGEST)
 #define FITTING WITHIN(-0.125 * FLT_MAX, 0.125 * FLT_MAX)
 #define COUNTING WITHIN(0, INT32_MAX)
 #define YES_OR_NO WITHIN(0, 1)
@@ -316,9 +301,11 @@ static STRUCT(SheetDefStruct, kiriSheetDef, KIRI_COOKIE(kiriSheetDef), "kiriDefa
 
 static STRUCT(ObstacleDefStruct, kiriObstacleDef, KIRI_COOKIE(kiriObstacleDef), "kiriDefaultObstacleDef", {
     INTS_IN(type, WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM)),
-    FLOATS_IN(size, ANY_NUMBER), /* FaultOfObstacleDef checks those that the type uses */
-    FLOATS_IN(radius, ANY_NUMBER),
-    FLOATS_IN(height, ANY_NUMBER),
+    FLOATS_IN(size, LENGTHS, .types = 1 << KIRI_OBSTACLE_BOX),
+    FLOATS_IN(radius, LENGTHS,
+              .types = 1 << KIRI_OBSTACLE_SPHERE | 1 << KIRI_OBSTACLE_CAPSULE | 1 << KIRI_OBSTACLE_CYLINDER),
+    FLOATS_IN(height, WITHIN(0.0, LONGEST),
+              .types = 1 << KIRI_OBSTACLE_CAPSULE | 1 << KIRI_OBSTACLE_CYLINDER | 1 << KIRI_OBSTACLE_PRISM),
     INTS_IN(outlineCount, WITHIN(0, 64)),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, outline, 2, outlineCount, WITHIN(-LONGEST, LONGEST)),
     FLOATS_IN(rounding, WITHIN(0.0, LONGEST)),
@@ -475,6 +462,32 @@ static void Prepend(kiriFault* fault, const char* text, size_t length)
 /* The checks write lines that go on behind the name of the value: " is null", "[2] is NaN, not finite", or for a member
    of a struct ".friction is -1, not 0 or more". */
 
+static void SayOutside(kiriFault* fault, const char* name, double number, double low, double high)
+{
+    char is[NUMBER_BYTES], least[NUMBER_BYTES], most[NUMBER_BYTES];
+    bool isAbove0 = low == KIRI_ABOVE_0;
+    WriteNumber(is, number);
+    WriteNumber(least, low);
+    WriteNumber(most, high);
+    if (high < low) {
+        KIRI_SAY(fault, "%s is %s, and there is none", name, is);
+    } else if (high >= (double)FLT_MAX) {
+        KIRI_SAY(fault, "%s is %s, not %s%s", name, is, low < 0.0 ? "finite" : isAbove0 ? "above 0" : least,
+                 low < 0.0 || isAbove0 ? "" : " or more");
+    } else {
+        KIRI_SAY(fault, "%s is %s, not %s%s and %s%s", name, is, isAbove0 ? "above 0" : "within ",
+                 isAbove0 ? "" : least, isAbove0 ? "up to " : "", most);
+    }
+}
+
+kiriResult kiriCall_RefuseNumber(const kiriWorld* world, kiriCall* call, const char* function, const char* name,
+                                 double number, double low, double high)
+{
+    kiriFault fault;
+    SayOutside(&fault, name, number, low, high);
+    return kiriCall_End(world, call, function, KIRI_ERROR_ARGUMENT, fault.line);
+}
+
 static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t count, kiriFault* fault)
 {
     bool areFloats = value->form == KIRI_FORM_FLOATS || value->form == KIRI_FORM_FLOATS_AT;
@@ -488,18 +501,11 @@ static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t c
     if (value->low > value->high || i == count) {
         return KIRI_OK;
     }
-    char is[NUMBER_BYTES], low[NUMBER_BYTES], high[NUMBER_BYTES], index[NUMBER_BYTES] = "";
+    char index[NUMBER_BYTES] = "";
     if (count > 1) {
         snprintf(index, sizeof(index), "[%lld]", (long long)i);
     }
-    WriteNumber(is, number);
-    if (value->high == (double)FLT_MAX) {
-        const char* least = value->low < 0.0 ? "finite" : value->low == 0.0 ? "0 or more" : "above 0";
-        KIRI_SAY(fault, "%s is %s, not %s", index, is, least);
-    } else {
-        KIRI_SAY(fault, "%s is %s, not within %s and %s", index, is, WriteNumber(low, value->low),
-                 WriteNumber(high, value->high));
-    }
+    SayOutside(fault, index, number, value->low, value->high);
     return KIRI_ERROR_ARGUMENT;
 }
 
@@ -545,6 +551,9 @@ kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWo
         const char* place = (const char*)at + member->offset;
         kiriResult result = KIRI_OK;
         KIRI_ASSERT(member->offset >= 0 && member->offset < of->bytes);
+        if (member->types != 0 && (member->types >> ((const kiriObstacleDef*)at)->type & 1) == 0) {
+            continue;
+        }
         if (member->form >= KIRI_FORM_FLOATS_AT) {
             const void* array;
             int32_t count;

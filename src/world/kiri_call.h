@@ -175,6 +175,7 @@ typedef struct kiriValue {
     int32_t refers;   /* ids: offset of the pool in kiriWorld; arrays in structs: offset of the count */
     double low, high; /* inclusive range of the numbers, or of the count of an array; low > high: unchecked */
     bool isOptional;  /* may be null, or the id 0 */
+    int32_t types;    /* of obstacles: bits of those that use the member; 0: all */
     kiriStructFn* of;
     const struct kiriValue* item;
     const char* (*fault)(const void* value); /* returns null, or a fault as in "is not orthonormal"; null: no check */
@@ -223,6 +224,12 @@ bool kiriCall_Begin(kiriCall* call);
 kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* function, kiriResult result,
                         const char* why);
 
+#define KIRI_ABOVE_0 1e-45 /* no positive float is less */
+
+/* Ends the call for a number that is not within low and high. */
+kiriResult kiriCall_RefuseNumber(const kiriWorld* world, kiriCall* call, const char* function, const char* name,
+                                 double number, double low, double high);
+
 /* The host's log gets the line. */
 void kiriWorld_Log(const kiriWorld* world, const char* line);
 
@@ -265,6 +272,14 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
         }                                                                                                              \
     } while (0)
 #define KIRI_CHECK(condition, why) KIRI_REQUIRE(condition, KIRI_ERROR_ARGUMENT, why)
+
+/* Checks a number of any type; the line has its name, the number and the range (high FLT_MAX: no limit). */
+#define KIRI_CHECK_NUMBER(number, low, high)                                                                           \
+    do {                                                                                                               \
+        if (!((number) >= (low) && (number) <= (high))) {                                                              \
+            return kiriCall_RefuseNumber(world, call, __func__, #number, number, low, high);                           \
+        }                                                                                                              \
+    } while (0)
 
 #define KIRI_CHECK_OUT(pointer) KIRI_CHECK((pointer) != NULL, #pointer " is null")
 #define KIRI_CHECK_LIST(items)                                                                                         \

@@ -309,7 +309,7 @@ kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw
     KIRI_REQUIRE(draw->cookie == KIRI_COOKIE(kiriDebugDraw), KIRI_ERROR_DEF,
                  "draw was not filled by kiriDefaultDebugDraw");
     KIRI_CHECK((draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0, "flags has more than those of KIRI_DRAW");
-    KIRI_CHECK(draw->size > 0.0f && draw->size <= FLT_MAX, "size is not finite, or not above 0");
+    KIRI_CHECK_NUMBER(draw->size, KIRI_ABOVE_0, FLT_MAX);
     const kiriSlot* only = kiriPool_Find(&world->sheetIds, draw->sheet);
     KIRI_REQUIRE(only != NULL || draw->sheet == 0, KIRI_ERROR_ID, "there is no sheet with this id");
     kiriCall_BeginCallbacks(world);

@@ -558,9 +558,10 @@ static kiriResult MakeUpToStop(kiriWorld* world, Coder* coder, kiriReplay* repla
 kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay)
 {
     KIRI_PREPARES(world);
-    KIRI_CHECK(recording != NULL && size >= 0, "recording is null, or size below 0");
-    KIRI_CHECK(replay != NULL && replay->offset >= 0 && replay->offset <= size,
-               "replay is null, or its offset not within the recording");
+    KIRI_CHECK_OUT(recording);
+    KIRI_CHECK_OUT(replay);
+    KIRI_CHECK_NUMBER(size, 0, FLT_MAX);
+    KIRI_CHECK_NUMBER(replay->offset, 0, size);
     bool isNew = world->ticks == 0 && world->sheetIds.slots.count == 0 && world->obstacleIds.slots.count == 0 &&
                  world->bladeIds.slots.count == 0;
     if (replay->offset == 0 && !isNew) {

@@ -355,7 +355,8 @@ static int64_t WriteWorld(const kiriWorld* world, bool isWhole, void* bytes, int
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
     KIRI_READS(world);
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
+    KIRI_CHECK_OUT(size);
+    KIRI_CHECK_NUMBER(capacity, 0, FLT_MAX);
     *size = 0;
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         if (sheet->update->stage != KIRI_NONE) {
@@ -363,16 +364,17 @@ kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity,
         }
     }
     *size = WriteWorld(world, false, bytes, capacity);
-    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a save");
+    KIRI_CHECK_NUMBER(capacity, bytes == NULL ? 0 : *size, FLT_MAX);
     return KIRI_OK;
 }
 
 kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
     KIRI_READS(world);
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
+    KIRI_CHECK_OUT(size);
+    KIRI_CHECK_NUMBER(capacity, 0, FLT_MAX);
     *size = WriteWorld(world, true, bytes, capacity);
-    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a snapshot");
+    KIRI_CHECK_NUMBER(capacity, bytes == NULL ? 0 : *size, FLT_MAX);
     return KIRI_OK;
 }
 
@@ -498,7 +500,8 @@ kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
 {
     int32_t count = size >= 0 && size <= INT32_MAX ? (int32_t)size : KIRI_NONE;
     KIRI_CHANGES(World_Load, bytes, &count);
-    KIRI_CHECK(bytes != NULL && count >= 0, "bytes is null, or size not within 0 and 2147483647");
+    KIRI_CHECK_OUT(bytes);
+    KIRI_CHECK_NUMBER(size, 0, INT32_MAX);
     const char* why = FaultOfBytes(bytes, size);
     KIRI_REQUIRE(why == NULL, KIRI_ERROR_DATA, why);
     kiriResult result = BecomeWorld(world, (const uint8_t*)bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, false);
@@ -508,7 +511,8 @@ kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
 kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
 {
     KIRI_PREPARES(world);
-    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
+    KIRI_CHECK_OUT(bytes);
+    KIRI_CHECK_NUMBER(size, 0, FLT_MAX);
     KIRI_REQUIRE(world->recorder.write == NULL, KIRI_ERROR_STATE,
                  "the world is recorded: snapshots are of one process, recordings are not");
     const Head head = HeadOfSnapshot(size);
