@@ -12,6 +12,7 @@ EMXX ?= em++
 NEEDS_web := $(NEEDS_lib) emscripten nodejs npm python3
 NEEDS_package-javascript := $(NEEDS_web)
 NEEDS_babylon := $(NEEDS_web)
+WANTS_web-test := $(NEEDS_web) chromium
 # Small functions within others make less code, not more: without -finline-functions it grows.
 WASM_HOT ?= -Os -finline-functions
 WASM_COLD ?= -Oz -finline-functions
