@@ -394,12 +394,14 @@ TEST(BudgetFromTime)
     assert_int_equal(budget.cells, 1250);
     assert_int_equal(budget.samples, 300);
     assert_int_equal(budget.iterations, 2);
-    profile.seconds[KIRI_STAGE_CUT] = 2e-3; /* 4 ms in all, of which 3 are work on cuts */
+    profile.seconds[KIRI_STAGE_CUT] = 2e-3;
     profile.trianglesSplit = 1000;
     OK(kiriFitBudget(&profile, 4000.0f, &budget));
-    assert_int_equal(budget.triangles, 1500);
-    assert_int_equal(budget.cells, 15000);
-    assert_int_equal(budget.iterations, 8);
+    assert_true(budget.triangles == 1000 && budget.cells == 10000 && budget.iterations == 16);
+    profile.seconds[KIRI_STAGE_SOLVE] = 0.1; /* of a hundred ticks: no less is left for cuts */
+    profile.solverIterations = 800;
+    OK(kiriFitBudget(&profile, 4000.0f, &budget));
+    assert_true(budget.triangles == 1000 && budget.cells == 10000 && budget.iterations == 16);
     assert_int_equal(kiriFitBudget(&profile, -1.0f, &budget), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriFitBudget(NULL, 1.0f, &budget), KIRI_ERROR_ARGUMENT);
 }

@@ -1277,8 +1277,9 @@ export function getResultName(result: ResultCode): string;
 /** Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 export function getResultText(result: ResultCode): string;
 
-/** Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
- *  limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets. */
+/** Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several: half for
+ *  cuts, half for motion; all if it has one alone. Limits without recorded work stay. A replay must set the same
+ *  budgets. */
 export function fitBudget(profile: ProfileGiven, microseconds: number, budget: Budget): ResultCode;
 
 /** Returns the name of a stage; "" for another number. */

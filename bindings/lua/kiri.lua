@@ -915,8 +915,9 @@ function World:getProfile(profile)
     return profile
 end
 
---- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
---- limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets.
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several: half for
+--- cuts, half for motion; all if it has one alone. Limits without recorded work stay. A replay must set the same
+--- budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
     if result < 0 then fail(nil, "fitBudget", result, false) end

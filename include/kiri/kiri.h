@@ -256,8 +256,8 @@ typedef struct kiriProfile {
 /* Gets the profile of the last tick that was not refused. */
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
-/* Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
-   limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets. */
+/* Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several: half for cuts,
+   half for motion; all if it has one alone. Limits without recorded work stay. A replay must set the same budgets. */
 KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* Returns the name of a stage; "" for another number. */

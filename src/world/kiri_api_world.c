@@ -348,13 +348,6 @@ kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
     return KIRI_OK;
 }
 
-/* Scales a count of items; a count of 0 keeps the previous limit. */
-static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
-{
-    double scaled = items * times;
-    return items <= 0 ? was : scaled < least ? least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
-}
-
 static double SecondsOf(const kiriProfile* profile, int first, int last)
 {
     double seconds = 0.0;
@@ -362,13 +355,6 @@ static double SecondsOf(const kiriProfile* profile, int first, int last)
         seconds += profile->seconds[i];
     }
     return seconds;
-}
-
-/* Returns the time of all work on cuts divided by the time of some of its stages. */
-static double TimesAlone(const kiriProfile* profile, int first, int last)
-{
-    double seconds = SecondsOf(profile, first, last);
-    return seconds > 0.0 ? SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CONSTANTS) / seconds : 1.0;
 }
 
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
@@ -383,17 +369,21 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
             return KIRI_ERROR_ARGUMENT;
         }
     }
-    double seconds = SecondsOf(profile, 0, KIRI_STAGE_COUNT - 1);
-    if (seconds > 0.0) {
-        double times = 1e-6 * microseconds / seconds;
-        /* The three kinds of work on cuts share one allowance, so each limit gets the time of all three. */
-        double triangles = times * TimesAlone(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
-               cells = times * TimesAlone(profile, KIRI_STAGE_GRID, KIRI_STAGE_SHAPE),
-               samples = times * TimesAlone(profile, KIRI_STAGE_SAMPLES, KIRI_STAGE_CONSTANTS);
-        budget->triangles = ScaleItems(profile->trianglesSplit, triangles, KIRI_LEAST_TRIANGLES, budget->triangles);
-        budget->cells = ScaleItems(profile->cellsSettled, cells, 1, budget->cells);
-        budget->samples = ScaleItems(profile->samplesRefreshed, samples, 1, budget->samples);
-        budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
+    /* The three kinds of work on cuts share one allowance, so each limit gets the time of all three. */
+    double cuts = SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CONSTANTS),
+           motion = SecondsOf(profile, KIRI_STAGE_CONTACT, KIRI_STAGE_SKIN),
+           seconds = (cuts > 0.0 && motion > 0.0 ? 0.5e-6 : 1e-6) * microseconds;
+    const int32_t items[] = { profile->trianglesSplit, profile->cellsSettled, profile->samplesRefreshed,
+                              profile->solverIterations };
+    const double spent[] = { SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
+                             SecondsOf(profile, KIRI_STAGE_GRID, KIRI_STAGE_SHAPE),
+                             SecondsOf(profile, KIRI_STAGE_SAMPLES, KIRI_STAGE_CONSTANTS), motion };
+    int32_t* const limits[] = { &budget->triangles, &budget->cells, &budget->samples, &budget->iterations };
+    KIRI_TIMES(i, 4) {
+        if (items[i] > 0 && spent[i] > 0.0) {
+            double scaled = items[i] * (seconds / spent[i]), least = i == 0 ? KIRI_LEAST_TRIANGLES : 1.0;
+            *limits[i] = scaled < least ? (int32_t)least : scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+        }
     }
     return KIRI_OK;
 }

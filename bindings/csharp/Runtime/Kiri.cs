@@ -817,9 +817,9 @@ namespace Kiri
             return World.Text(Native.kiriGetResultText((int)result));
         }
 
-        /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets
-        /// only limits for which it recorded work. The host chooses by its clock, so a replay must set the same
-        /// budgets.</summary>
+        /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several: half
+        /// for cuts, half for motion; all if it has one alone. Limits without recorded work stay. A replay must set the
+        /// same budgets.</summary>
         public static void FitBudget(Profile profile, float microseconds, ref Budget budget)
         {
             fixed (Budget* budgetValue = &budget)

@@ -710,8 +710,9 @@ function World:getEvents() end
 ---@return kiri.Profile
 function World:getProfile(profile) end
 
---- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several. Sets only
---- limits for which it recorded work. The host chooses by its clock, so a replay must set the same budgets.
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of several: half for
+--- cuts, half for motion; all if it has one alone. Limits without recorded work stay. A replay must set the same
+--- budgets.
 ---@param profile? kiri.Profile
 ---@param microseconds number
 ---@param budget? kiri.Budget

@@ -1129,8 +1129,8 @@ unsafe extern "C" {
     /// Gets the profile of the last tick that was not refused.
     pub fn kiriWorld_GetProfile(world: *const kiriWorld, profile: *mut kiriProfile) -> kiriResult;
     /// Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum
-    /// of several. Sets only limits for which it recorded work. The host chooses by its clock, so a
-    /// replay must set the same budgets.
+    /// of several: half for cuts, half for motion; all if it has one alone. Limits without recorded
+    /// work stay. A replay must set the same budgets.
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
     /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;

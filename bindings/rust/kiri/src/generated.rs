@@ -2391,8 +2391,8 @@ pub fn result_text(result: ResultCode) -> &'static str {
 }
 
 /// Converts microseconds a tick into a budget, at the pace of the profile, which may be a sum of
-/// several. Sets only limits for which it recorded work. The host chooses by its clock, so a replay
-/// must set the same budgets.
+/// several: half for cuts, half for motion; all if it has one alone. Limits without recorded work
+/// stay. A replay must set the same budgets.
 pub fn fit_budget(profile: &Profile, microseconds: f32, budget: &mut Budget) -> Result<()> {
     // SAFETY: pointers are to what is named, and lengths are theirs.
     fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) }, "fit_budget")?;
