@@ -412,6 +412,38 @@ FIGURE(TrouserPullsWithItsForce)
     }
 }
 
+/* A hand pulls soft cloth beside a notch: it tears, also where it folds between the hand and the tip. */
+FIGURE(ClothTearsBesideAHand)
+{
+    static const double ways[][2] = { { -1.0, -0.4 }, { -0.6, -0.8 }, { -0.3, -0.95 } };
+    for (int k = 0; k < 3; ++k) {
+        START_HOST(host);
+        double tip[2];
+        kiriSheetDef def = DefaultSheet();
+        kiriTearing tearing = TearingOf(3e3);
+        kiriPinDef hand = Host_PinDef(0.27f, 0.05f, 0.27f, 0.05f, 0.0f);
+        kiriPin hinge, pin;
+        OK(kiriGetMaterial(KIRI_MATERIAL_COTTON, &def.material));
+        def.gridResolution = 40 + 8 * k;
+        def.frameCount = 64;
+        def.iterations = 4;
+        kiriSheet sheet = World_AddRectangle(host.world, 0.3f, 0.3f, 64, 64, &def);
+        OK(kiriSheet_HingeLine(host.world, sheet, (const float[]){ 0.0f, 0.3f }, (const float[]){ 0.3f, 0.3f }, &hinge));
+        OK(kiriSheet_SetTearing(host.world, sheet, &tearing));
+        CutLine(&host, sheet, 0.31f, 0.075f, 0.255f, 0.075f);
+        hand.stiffness = 300.0f;
+        OK(kiriCreatePin(host.world, sheet, &hand, &pin));
+        for (int32_t t = 0; t < 80; ++t) {
+            hand.target[0] += (float)(0.0018 * ways[k][0]);
+            hand.target[1] += (float)(0.0018 * ways[k][1]);
+            OK(kiriPin_SetTarget(host.world, pin, hand.target));
+            assert_true(Host_Tick(&host, Dt, 2) >= 0);
+        }
+        FarthestLip(&host, sheet, -1.0, 0.0, tip);
+        assert_true(tip[0] < 0.24);
+    }
+}
+
 /* ---- Tear lines -------------------------------------------------------------------------------------------------- */
 
 /* Three by two stamps of paper with perforations between them. Springs hold one stamp, and pull a neighbor away by random points in

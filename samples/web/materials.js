@@ -21,7 +21,7 @@ export const makeMaterials = () => ({
     },
     card: of(MaterialPreset.Card, { airDamping: 4, density: 60 }), // of the origami; light, so that it does not sag
     cloth: {
-        material: of(MaterialPreset.Cotton, { airDamping: 0.8, flexDamping: 4e-3 }), toughness: 3e2,
+        material: of(MaterialPreset.Cotton, { airDamping: 0.8, flexDamping: 4e-3 }), toughness: 3e3,
         drawn: 1.1e-3, roughness: 1, metalness: 0, rim: 0x8fa6b8, print: "cloth",
         light: [0.97, 0.99, 1], shade: [0.05, 0.1, 0.17], through: 0.6,
         sound: { pitch: 900, width: 0.5, volume: 0.35 },

@@ -202,6 +202,16 @@ static double RingMoveAt(const Ring* ring, kiriVec2 p)
     return share <= 0.0 ? 0.0 : kiriMin(share, 1.0);
 }
 
+/* Returns the move of a frame's site. The ring holds no load: a frame that a point pulls stays, but beside the tip. */
+static double RingMoveOf(const kiriSheetData* sheet, const Ring* ring, int32_t frame)
+{
+    double share = RingMoveAt(ring, sheet->frames.data[frame].site.at);
+    KIRI_EACH_INDEX_WHILE(share > 0.0 && share < 1.0, i, sheet->pins) {
+        share = sheet->layout.pinFrame.data[i] == frame ? 0.0 : share;
+    }
+    return share;
+}
+
 /* Returns the energy of a link after its material has moved. moves: of its sites; wider: growth of its border. */
 static double EnergyAfter(const kiriSheetData* sheet, int32_t k, const kiriVec2 moves[2], double wider)
 {
@@ -239,7 +249,7 @@ static double ReleaseOfLink(const kiriSheetData* sheet, const Ring* ring, int32_
     const kiriLink* link = &sheet->links.links.data[k];
     const double* pull = sheet->tears.pulls.data[k].strain;
     kiriVec2 half = kiriVec2_Scale(0.5 * link->width, link->tangent), t = link->tangent;
-    double i = RingMoveAt(ring, sheet->frames.data[link->i].site.at), j = RingMoveAt(ring, sheet->frames.data[link->j].site.at);
+    double i = RingMoveOf(sheet, ring, link->i), j = RingMoveOf(sheet, ring, link->j);
     double across = RingMoveAt(ring, kiriVec2_Add(link->centroid, half)) - RingMoveAt(ring, kiriVec2_Sub(link->centroid, half));
     /* The moved link keeps a width and a length. */
     double step = kiriMin(1e-4 * ring->outer, 0.25 * kiriMin(link->width, link->length));
@@ -271,8 +281,7 @@ static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, cons
     kiriVec2 slope = { 0.0, 0.0 };
     KIRI_EACH_INDEX(n, *corner) {
         const kiriLink* link = &links[corner->link[n]];
-        double change = RingMoveAt(ring, sheet->frames.data[link->j].site.at) -
-                        RingMoveAt(ring, sheet->frames.data[link->i].site.at);
+        double change = RingMoveOf(sheet, ring, link->j) - RingMoveOf(sheet, ring, link->i);
         slope = kiriVec2_AddScaled(slope, change, corner->weight[n]);
         pulls[n] = sheet->tears.pulls.data[corner->link[n]].strain;
     }
