@@ -122,15 +122,13 @@ static inline void Body_Divide(Body* body)
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
     }
     body->shape.rigidWeight = 0.9;
-    assert_int_equal(
-        kiriRegions_Update(&body->regions, &s->memory, &s->grid, body->sites.data, count, moves, count, &quota),
-        KIRI_DONE);
-    assert_int_equal(kiriShape_Update(&body->shape, &s->memory, &s->grid, &body->regions, body->sites.data, count,
-                                      moves, count, &quota),
+    assert_int_equal(kiriRegions_Update(&body->regions, &s->grid, body->sites.data, count, moves, count, &quota),
                      KIRI_DONE);
     assert_int_equal(
-        kiriLinks_Update(&body->links, &s->memory, &s->grid, &body->regions, body->sites.data, count, &quota),
+        kiriShape_Update(&body->shape, &s->grid, &body->regions, body->sites.data, count, moves, count, &quota),
         KIRI_DONE);
+    assert_int_equal(kiriLinks_Update(&body->links, &s->grid, &body->regions, body->sites.data, count, &quota),
+                     KIRI_DONE);
     kiriLinks_Commit(&body->links);
     assert_true(kiriArray_Resize(&s->memory, &body->material, count));
     memset(body->material.data, 0, sizeof(kiriMoments) * (size_t)count);
@@ -150,7 +148,7 @@ static inline void Body_End(Body* body, const BodyDef* def)
         built = kiriAffine_Build(&body->elements, &s->memory, body->links.links.data, body->links.links.count,
                                  body->material.data, body->sites.count, def->planar != 0);
     } else if (def->model == KIRI_MODEL_POINTS) {
-        built = kiriIntegration_Build(&body->elements, &body->points, &s->memory, &s->grid, &body->shape,
+        built = kiriIntegration_Build(&body->elements, &body->points, &s->grid, &body->shape,
                                       body->material.data, def->points, def->order, def->planar != 0);
     }
     assert_true(built);

@@ -17,10 +17,8 @@ static void Build(Scene* scene, Links* l, const kiriSite* sites, int32_t count)
         moves[i] = (kiriSiteMove){ i, KIRI_NONE };
     }
     memset(l, 0, sizeof(*l));
-    assert_int_equal(kiriRegions_Update(&l->regions, &scene->memory, &scene->grid, sites, count, moves, count, &quota),
-                     KIRI_DONE);
-    assert_int_equal(kiriLinks_Update(&l->made, &scene->memory, &scene->grid, &l->regions, sites, count, &quota),
-                     KIRI_DONE);
+    assert_int_equal(kiriRegions_Update(&l->regions, &scene->grid, sites, count, moves, count, &quota), KIRI_DONE);
+    assert_int_equal(kiriLinks_Update(&l->made, &scene->grid, &l->regions, sites, count, &quota), KIRI_DONE);
     assert_int_equal(l->made.links.count, 0);
     assert_int_equal(l->made.changed, l->made.next.count);
     kiriLinks_Commit(&l->made);

@@ -16,8 +16,7 @@ static int32_t FindEnds(Scene* scene, const kiriPlacer* placer, kiriSlitEnds* en
     kiriProgress progress = KIRI_MORE;
     for (; progress == KIRI_MORE; ++times) {
         kiriQuota quota = { items, 0, 0, false };
-        progress = kiriSlits_FindEnds(ends, &search, &scene->memory, &scene->grid, placer->cells.data,
-                                      placer->cells.count, &quota);
+        progress = kiriSlits_FindEnds(ends, &search, &scene->grid, placer->cells.data, placer->cells.count, &quota);
         assert_true(progress != KIRI_MORE || quota.used == items);
     }
     assert_int_equal(progress, KIRI_DONE);
@@ -28,10 +27,10 @@ static void AddPairs(Scene* scene, kiriSites* sites, double spacing, int32_t mos
 {
     kiriPlacer placer = { 0 };
     Scene_BuildGrid(scene);
-    assert_true(kiriPlacer_TakePiece(&placer, &scene->memory, &scene->grid, Scene_Cell(scene, 0.01, 0.01)));
+    assert_true(kiriPlacer_TakePiece(&placer, &scene->grid, Scene_Cell(scene, 0.01, 0.01)));
     kiriSlitEnds ends = { 0 };
     FindEnds(scene, &placer, &ends, INT64_MAX);
-    assert_true(kiriSlits_AddPairs(sites, &scene->memory, &scene->grid, &ends, spacing, most));
+    assert_true(kiriSlits_AddPairs(sites, &scene->grid, &ends, spacing, most));
 }
 
 static void AssertSite(const kiriSites* sites, int32_t index, double u, double v)

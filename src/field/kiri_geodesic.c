@@ -173,7 +173,7 @@ static inline bool Passes(const kiriRule* rule, int32_t cell)
 
 /* Goes on to the next bucket that has cells or seeds, and takes the seeds of all buckets of the ring. KIRI_DONE: there
    is none. */
-static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriRule* rule, bool repairs)
+static kiriProgress OpenBucket(kiriField* field, const kiriRule* rule, bool repairs)
 {
     int32_t ahead = 1, count = field->seeds.count, first = BucketOf(field->nearest);
     while (ahead < KIRI_RING && field->ring[(field->bucket + ahead) % KIRI_RING].count == 0) {
@@ -195,7 +195,7 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
             KIRI_NEXT(field->seeds) = seed;
             field->nearest = kiriMin(seed.distance, field->nearest);
         } else if (seed.distance <= rule->limit && !IsNearerSeed(value, seed) &&
-                   !GiveValue(field, memory, seed, repairs)) {
+                   !GiveValue(field, rule->grid->mesh->memory, seed, repairs)) {
             return KIRI_FAILED;
         }
     }
@@ -203,15 +203,14 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
 }
 
 /* Takes the steps from a cell, as far as `room`. False for memory. */
-static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from,
-                                 int32_t room, bool repairs)
+static inline bool TakeGridSteps(kiriField* field, const kiriGrid* grid, kiriSeed from, int32_t room, bool repairs)
 {
     const int32_t passed = from.distance - (from.owner != KIRI_NONE); /* a lower owner wins where both are as far */
     int32_t hits = room < KIRI_UNIT_KNIGHT ? -1 : HitsAt(field, grid, from.cell, ABOVE, passed, 1);
     EACH_HIT(step, grid, from.cell, hits) {
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
         bool isNearer = step.length <= room && IsNearerSeed(to, ValueOf(field, to.cell));
-        if (isNearer && !GiveValue(field, memory, to, repairs)) {
+        if (isNearer && !GiveValue(field, grid->mesh->memory, to, repairs)) {
             return false;
         }
     }
@@ -220,8 +219,7 @@ static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kir
 
 /* Settles cells until none is left, or the quota is spent on them. In a repair a cell may have values on all sides, and
    its previous value is logged: it counts twice. */
-static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota,
-                                 bool repairs)
+static inline kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota, bool repairs)
 {
     int32_t before = field->settled.count, items = repairs ? 2 : 1;
     int64_t fit = quota->left / items, most = INT64_MAX;
@@ -232,10 +230,10 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
     while (progress == KIRI_MORE && field->settled.count < most) {
         kiriIndices* list = &field->ring[field->bucket & (KIRI_RING - 1)];
         if (list->count == 0) {
-            progress = OpenBucket(field, memory, rule, repairs);
+            progress = OpenBucket(field, rule, repairs);
             continue;
         }
-        if (!kiriArray_ReserveMore(memory, &field->settled, 1)) {
+        if (!kiriArray_ReserveMore(rule->grid->mesh->memory, &field->settled, 1)) {
             return KIRI_FAILED;
         }
         kiriSeed value = ValueOf(field, list->data[--list->count]);
@@ -247,7 +245,7 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
             if (rule->look != NULL) {
                 rule->look(rule->context, value.cell);
             }
-            bool ok = TakeGridSteps(field, memory, rule->grid, value, rule->limit - value.distance, repairs);
+            bool ok = TakeGridSteps(field, rule->grid, value, rule->limit - value.distance, repairs);
             progress = ok ? KIRI_MORE : KIRI_FAILED;
         }
     }
@@ -273,10 +271,10 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
     return true;
 }
 
-kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     KIRI_ASSERT(field->stage == REPAIR_NONE && rule->limit < KIRI_FAR);
-    return Sweep(field, memory, rule, quota, false);
+    return Sweep(field, rule, quota, false);
 }
 
 /* ---- Repairs (Ramalingam and Reps 1996) -------------------------------------------------------------------------- */
@@ -327,7 +325,7 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
 /* Clears the affected cells: those whose value nothing supports any more. The other values are lengths of ways that
    still exist, if not the shortest. A cell that ways do not pass (any longer) keeps its own value, but its dependents
    may lose theirs. */
-static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+static kiriProgress ClearAffected(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->checked < field->dirty.count; ++field->checked) {
         int32_t cell = field->dirty.data[field->checked];
@@ -337,14 +335,14 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
                 rule->look(rule->context, cell);
             }
             int32_t steps = kiriGrid_GetSteps(rule->grid, cell).end[KIRI_KNIGHT], end;
-            if (!kiriArray_ReserveMore(memory, &field->dirty, steps)) {
+            if (!kiriArray_ReserveMore(rule->grid->mesh->memory, &field->dirty, steps)) {
                 return KIRI_FAILED;
             }
             bool supported = IsSupported(field, rule, cell, &end);
             if (!kiriQuota_Take(quota, !supported || field->checked % 4 == 0)) {
                 return KIRI_MORE;
             }
-            if (!supported && !LogValue(field, memory, cell)) {
+            if (!supported && !LogValue(field, rule->grid->mesh->memory, cell)) {
                 return KIRI_FAILED;
             }
             while ((!supported || blocked) && field->dirty.count < end) {
@@ -401,7 +399,7 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
     return KIRI_DONE;
 }
 
-kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
+kiriProgress kiriField_Repair(kiriField* field, const kiriRule* rule, kiriQuota* quota)
 {
     KIRI_ASSERT(rule->limit < KIRI_FAR && rule->seed != NULL);
     kiriProgress progress = KIRI_DONE;
@@ -414,11 +412,11 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         field->stage = REPAIR_CLEARS;
     }
     if (field->stage == REPAIR_CLEARS) {
-        progress = ClearAffected(field, memory, rule, quota);
+        progress = ClearAffected(field, rule, quota);
         if (progress != KIRI_DONE) {
             return progress;
         }
-        if (!kiriArray_Reserve(memory, &field->seeds, field->dirty.count)) {
+        if (!kiriArray_Reserve(rule->grid->mesh->memory, &field->seeds, field->dirty.count)) {
             return KIRI_FAILED;
         }
         field->seeds.count = field->checked = 0;
@@ -433,7 +431,7 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         StartSweep(field);
         field->stage = REPAIR_SETTLES;
     }
-    progress = Sweep(field, memory, rule, quota, true);
+    progress = Sweep(field, rule, quota, true);
     if (progress == KIRI_DONE) {
         KIRI_EACH(const kiriSeed, logged, field->log) {
             field->marks.data[logged->cell] = 0;

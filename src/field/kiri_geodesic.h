@@ -69,7 +69,7 @@ void kiriField_Clear(kiriField* field);
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
 /* Continues a flood. An item of the quota is a cell settled. KIRI_FAILED: only kiriField_Clear helps. */
-kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
+kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
 /* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */
 void kiriField_Reset(kiriField* field);
@@ -92,7 +92,7 @@ void kiriField_Forget(kiriField* field, int32_t cell);
    cleared, half of a settled cell, a possible seed of the sweep, or four cells that keep their distance. KIRI_MORE:
    call again with the same rule before anything changes. The reader of the log empties it (its count). KIRI_FAILED:
    only kiriField_Clear helps. */
-kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
+kiriProgress kiriField_Repair(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
 /* Distances of cells from the sites of frames, and from the borders of their regions: of each frame only for the cells
    that it reaches. Cells with consecutive indices, which mostly lie in a row, share a block for each frame that reaches

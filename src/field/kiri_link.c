@@ -1720,17 +1720,19 @@ static void EndLinks(kiriLinkWork* work)
     work->made.count = 0;
 }
 
-kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                              const kiriSite* sites, int32_t siteCount, kiriQuota* quota)
+kiriProgress kiriLinks_Update(kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, kiriQuota* quota)
 {
     KIRI_ASSERT(regions->dirty.count == siteCount && regions->border.first.count == siteCount && !regions->running);
     if (links->work == NULL) {
-        links->work = kiriMemory_AllocZeroed(memory, sizeof(*links->work));
+        links->work = kiriMemory_AllocZeroed(grid->mesh->memory, sizeof(*links->work));
     }
     if (links->work == NULL) {
         return KIRI_FAILED;
     }
-    LinkUpdate u = { memory, grid, regions, regions->field.owner.data, sites, siteCount, links, links->work };
+    LinkUpdate u = {
+        grid->mesh->memory, grid, regions, regions->field.owner.data, sites, siteCount, links, links->work
+    };
     KIRI_ASSERT(links->work->ends.count == links->links.count);
     kiriProgress progress = links->work->running || BeginLinks(&u) ? RunLinks(&u, quota) : KIRI_FAILED;
     if (progress != KIRI_MORE) {

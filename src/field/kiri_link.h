@@ -176,8 +176,8 @@ typedef struct kiriLinks {
 /* Makes `next` and `nextCorners` for the regions. Only links that a dirty region (regions->dirty) touches are computed;
    the others are copied from `links`. The result equals one from scratch to the bit. A link counts as 80 items.
    KIRI_MORE: call again before the regions change. KIRI_FAILED: out of memory, `links` is unchanged. */
-kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                              const kiriSite* sites, int32_t siteCount, kiriQuota* quota);
+kiriProgress kiriLinks_Update(kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, kiriQuota* quota);
 
 /* Drops an update, also a finished one. */
 void kiriLinks_Drop(kiriLinks* links);

@@ -24,28 +24,28 @@ static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* gr
     return (kiriSeed){ cell, (int32_t)kiriMin(length, most), owner };
 }
 
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid, kiriSeeds* seeds)
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriGrid* grid, kiriSeeds* seeds)
 {
     kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
     int32_t end = IsAtMiddle(site, grid) ? 0 : steps.end[2];
     bool ok = true;
     KIRI_FROM_TO_WHILE(ok, s, -1, end) {
         kiriSeed seed = SeedNear(site, owner, grid, s < 0 ? site->cell : kiriSteps_At(&steps, s).cell);
-        ok = kiriArray_Push(memory, seeds, seed);
+        ok = kiriArray_Push(grid->mesh->memory, seeds, seed);
     }
     return ok;
 }
 
-bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, kiriMemory* memory, const kiriGrid* grid,
-                          const kiriSite* sites, int32_t first, int32_t end, const int32_t* holders)
+bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, const kiriGrid* grid, const kiriSite* sites,
+                          int32_t first, int32_t end, const int32_t* holders)
 {
     bool ok = true;
     seeds->count = 0;
     KIRI_FROM_TO_WHILE(ok, i, first, end) {
-        ok = kiriSite_Seed(&sites[i], i, memory, grid, seeds);
+        ok = kiriSite_Seed(&sites[i], i, grid, seeds);
     }
     KIRI_KEEP_IF(const kiriSeed, seed, *seeds, holders[seed->cell] < 0 || holders[seed->cell] == seed->owner);
-    return ok && kiriField_Start(field, memory, seeds->data, seeds->count);
+    return ok && kiriField_Start(field, grid->mesh->memory, seeds->data, seeds->count);
 }
 
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell)
@@ -318,8 +318,8 @@ static bool BeginRegions(const RegionUpdate* u)
     }
     if (r->flooding) {
         kiriSeeds seeds = { 0 };
-        bool ok = MoveSites(u) && kiriSites_StartFlood(&r->field, &seeds, u->memory, u->grid, u->sites, 0, u->siteCount,
-                                                       r->siteAt.data);
+        bool ok =
+            MoveSites(u) && kiriSites_StartFlood(&r->field, &seeds, u->grid, u->sites, 0, u->siteCount, r->siteAt.data);
         kiriArray_Release(u->memory, &seeds);
         return ok;
     }
@@ -344,10 +344,10 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
     kiriRule rule = { u->grid, KIRI_FAR - 1, NULL, NearestSiteSeed, u, NULL };
     kiriProgress progress = KIRI_DONE;
     if (r->flooding) {
-        return kiriField_Flood(&r->field, u->memory, &rule, quota);
+        return kiriField_Flood(&r->field, &rule, quota);
     }
     if (!r->following) {
-        progress = kiriField_Repair(&r->field, u->memory, &rule, quota);
+        progress = kiriField_Repair(&r->field, &rule, quota);
         r->following = progress == KIRI_DONE;
         r->followed = 0;
     }
@@ -360,10 +360,10 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
     return progress;
 }
 
-kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid, const kiriSite* sites,
-                                int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
+kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriGrid* grid, const kiriSite* sites, int32_t siteCount,
+                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
-    RegionUpdate u = { regions, memory, grid, sites, siteCount, moves, moveCount };
+    RegionUpdate u = { regions, grid->mesh->memory, grid, sites, siteCount, moves, moveCount };
     KIRI_ASSERT(siteCount >= regions->material.count && grid->cells.count >= regions->siteAt.count);
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;

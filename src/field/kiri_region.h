@@ -19,12 +19,12 @@ typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
 /* Adds the seeds of distances to the site. If the site is off the middle of its square, the cells one step away are
    seeds as well, so that distances depend on its position in the cell. Fails on out of memory. */
-bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid, kiriSeeds* seeds);
+bool kiriSite_Seed(const kiriSite* site, int32_t owner, const kiriGrid* grid, kiriSeeds* seeds);
 
 /* Starts a flood from sites `first` to `end` - 1, without seeds in the cells of other sites (see NearestSiteSeed);
    holders: of each cell, the site in it, or negative. `seeds` is scratch. Fails on out of memory. */
-bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, kiriMemory* memory, const kiriGrid* grid,
-                          const kiriSite* sites, int32_t first, int32_t end, const int32_t* holders);
+bool kiriSites_StartFlood(kiriField* field, kiriSeeds* seeds, const kiriGrid* grid, const kiriSite* sites,
+                          int32_t first, int32_t end, const int32_t* holders);
 
 /* Returns the seed of the site in one cell; distance KIRI_FAR where it has none there. */
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, int32_t cell);
@@ -64,8 +64,8 @@ typedef struct kiriSiteMove {
    before the changes of grid and regions are cleared, together, and before the next update of the grid. Items of the
    quota: see kiriField_Repair, and two for a cell of its log. KIRI_MORE: call again with the same arguments.
    KIRI_FAILED: only kiriRegions_Reset helps. */
-kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid, const kiriSite* sites,
-                                int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
+kiriProgress kiriRegions_Update(kiriRegions* regions, const kiriGrid* grid, const kiriSite* sites, int32_t siteCount,
+                                const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
 /* Takes away the frames that are not kept, and the cells of their regions, which `gone` lists; other frames get their
    new index. Not during an update, nor before its changes are cleared. Cannot fail. */

@@ -452,7 +452,7 @@ static bool StartFromSite(ShapeJob* job)
     }
     int32_t limit = sides < 1 ? KIRI_UNIT : (int32_t)kiriMin(sides * KIRI_UNIT, KIRI_FAR - 1);
     work->seeds.count = 0;
-    if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, &work->seeds)) {
+    if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->grid, &work->seeds)) {
         return false;
     }
     KIRI_EACH(const kiriSeed, seed, work->seeds) {
@@ -511,8 +511,8 @@ static bool MeasureField(ShapeJob* job, kiriField* field, int32_t limit, kiriPas
     bool moved = job->work->frames.data[job->frame].moved;
     const kiriRule rule = { job->grid, limit, pass, seed, job, moved ? NULL : LoadAround };
     int32_t k = field->settled.count;
-    kiriProgress progress = moved ? kiriField_Flood(field, job->memory, &rule, job->quota)
-                                  : kiriField_Repair(field, job->memory, &rule, job->quota);
+    kiriProgress progress =
+        moved ? kiriField_Flood(field, &rule, job->quota) : kiriField_Repair(field, &rule, job->quota);
     for (; moved && k < field->settled.count; ++k) {
         LoadBlock(job, kiriReach_BlockOf(field->settled.data[k]));
     }
@@ -763,16 +763,15 @@ static void EndShapeUpdate(ShapeJob* job)
     job->work->running = false;
 }
 
-kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                              const kiriSite* sites, int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount,
-                              kiriQuota* quota)
+kiriProgress kiriShape_Update(kiriShape* shape, const kiriGrid* grid, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
     if (shape->work == NULL) {
-        shape->work = kiriMemory_AllocZeroed(memory, sizeof(*shape->work));
+        shape->work = kiriMemory_AllocZeroed(grid->mesh->memory, sizeof(*shape->work));
     }
     kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
-    ShapeJob job = { shape, work, memory, grid, regions, sites, siteCount, quota, false, KIRI_NONE };
+    ShapeJob job = { shape, work, grid->mesh->memory, grid, regions, sites, siteCount, quota, false, KIRI_NONE };
     if (work == NULL || (!work->running && !StartShapeUpdate(&job, moves, moveCount))) {
         return KIRI_FAILED;
     }
@@ -787,7 +786,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
                                                work->dirty.count };
         KIRI_ASSERT(work->item <= counts[work->stage]);
         for (; work->item < counts[work->stage]; ++work->item, work->debt += work->stage < CHANGE_STAGES) {
-            bool isDone = !kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &work->debt) &&
+            bool isDone = !kiriMemory_MustPause(job.memory) && kiriQuota_Pay(quota, &work->debt) &&
                           shapeStages[work->stage](&job, work->item);
             if (job.outOfMemory || !isDone) {
                 return job.outOfMemory ? KIRI_FAILED : KIRI_MORE;

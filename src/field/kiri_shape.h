@@ -62,9 +62,8 @@ typedef struct kiriShape {
    eight for each block of distances loaded, two for each block stored, and half for each cell with other distances;
    then one for each such cell, and a third for each of its weights. Work beyond the quota is deducted from the next
    ones. */
-kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                              const kiriSite* sites, int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount,
-                              kiriQuota* quota);
+kiriProgress kiriShape_Update(kiriShape* shape, const kiriGrid* grid, const kiriRegions* regions, const kiriSite* sites,
+                              int32_t siteCount, const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
 /* Removes the listed cells, which must be all that the frames reach that are not kept, and gives the other frames their
    new index. Not during an update, nor before its changes are cleared. Cannot fail. */

@@ -45,8 +45,8 @@ bool kiriSlits_FindEndIn(const kiriGrid* grid, int32_t cell, kiriSlitEnd* end, i
     return false;
 }
 
-kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
-                                const int32_t* cells, int32_t cellCount, kiriQuota* quota)
+kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, const kiriGrid* grid, const int32_t* cells,
+                                int32_t cellCount, kiriQuota* quota)
 {
     enum { CELLS_AN_ITEM = 16, VERTICES_AN_ITEM = 3 };
     ends->count = search->seen == 0 ? 0 : ends->count;
@@ -56,7 +56,8 @@ kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiri
         if (search->seen == cellCount) {
             return KIRI_DONE;
         }
-        if (kiriSlits_FindEndIn(grid, cells[search->seen], &end, &looks) && !kiriArray_Push(memory, ends, end)) {
+        if (kiriSlits_FindEndIn(grid, cells[search->seen], &end, &looks) &&
+            !kiriArray_Push(grid->mesh->memory, ends, end)) {
             return KIRI_FAILED;
         }
         search->owed = (search->seen % CELLS_AN_ITEM == 0) + looks / VERTICES_AN_ITEM;
@@ -105,10 +106,9 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriSlitEnd* e
     return true;
 }
 
-bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriSlitEnds* ends,
-                        double spacing, int32_t most)
+bool kiriSlits_AddPairs(kiriSites* sites, const kiriGrid* grid, const kiriSlitEnds* ends, double spacing, int32_t most)
 {
-    if (!kiriArray_Reserve(memory, sites, most)) {
+    if (!kiriArray_Reserve(grid->mesh->memory, sites, most)) {
         return false;
     }
     KIRI_EACH_WHILE(sites->count + 2 <= most, const kiriSlitEnd, slit, *ends) {
@@ -123,19 +123,19 @@ bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* gr
 
 /* ---- The part ---------------------------------------------------------------------------------------------------- */
 
-static kiriPlacerWork* PlacerWorkOf(kiriPlacer* placer, kiriMemory* memory)
+static kiriPlacerWork* PlacerWorkOf(kiriPlacer* placer, const kiriGrid* grid)
 {
     if (placer->work == NULL) {
-        placer->work = kiriMemory_AllocZeroed(memory, sizeof(kiriPlacerWork));
+        placer->work = kiriMemory_AllocZeroed(grid->mesh->memory, sizeof(kiriPlacerWork));
     }
     return placer->work;
 }
 
-static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
+static bool TakeCell(kiriPlacer* placer, const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT_HAS(placer->work->marks, cell);
     uint8_t* mark = &placer->work->marks.data[cell];
-    if (!*mark && !kiriArray_Push(memory, &placer->cells, cell)) {
+    if (!*mark && !kiriArray_Push(grid->mesh->memory, &placer->cells, cell)) {
         return false;
     }
     *mark = 1;
@@ -150,10 +150,10 @@ static void ClearTakenMarks(kiriPlacer* placer)
     placer->work->isTaking = false;
 }
 
-bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+bool kiriPlacer_StartPiece(kiriPlacer* placer, const kiriGrid* grid, int32_t cell)
 {
-    kiriPlacerWork* work = PlacerWorkOf(placer, memory);
-    if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
+    kiriPlacerWork* work = PlacerWorkOf(placer, grid);
+    if (work == NULL || !kiriArray_Reserve(grid->mesh->memory, &work->marks, grid->cells.count)) {
         return false;
     }
     ClearTakenMarks(placer); /* after a piece that was given up */
@@ -161,7 +161,7 @@ bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGri
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     placer->cells.count = work->cursor = 0;
     work->isTaking = true;
-    return TakeCell(placer, memory, cell);
+    return TakeCell(placer, grid, cell);
 }
 
 /* Brings the cells, which are marked, into their order. Where they fill a good part of the squares from the first to
@@ -189,7 +189,7 @@ static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
 }
 
 /* Breadth first over straight steps: there is one for every two cells that share a face. */
-kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
+kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, const kiriGrid* grid, kiriQuota* quota)
 {
     enum { CELLS_AN_ITEM = 3 }; /* to gather, order and mark */
     if (!placer->work->isTaking) {
@@ -200,7 +200,7 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
             return KIRI_MORE;
         }
         KIRI_EACH_STEP(step, grid, placer->cells.data[*k], KIRI_STRAIGHT) {
-            if (!TakeCell(placer, memory, step.cell)) {
+            if (!TakeCell(placer, grid, step.cell)) {
                 return KIRI_FAILED;
             }
         }
@@ -210,11 +210,10 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
     return KIRI_DONE;
 }
 
-bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
+bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriGrid* grid, int32_t cell)
 {
     kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    return kiriPlacer_StartPiece(placer, memory, grid, cell) &&
-           kiriPlacer_GoOnWithPiece(placer, memory, grid, &unlimited) == KIRI_DONE;
+    return kiriPlacer_StartPiece(placer, grid, cell) && kiriPlacer_GoOnWithPiece(placer, grid, &unlimited) == KIRI_DONE;
 }
 
 /* ---- Placing (section 5) -----------------------------------------------------------------------------------------
@@ -238,7 +237,6 @@ enum { CLOSENESS = 16, AREA_UNITS = 1 << 24, SAMPLE_CELLS = 512 /* a block: neig
 typedef struct PlacerJob {
     kiriPlacer* placer;
     kiriPlacerWork* work;
-    kiriMemory* memory;
     const kiriGrid* grid;
     kiriQuota* quota;
 } PlacerJob;
@@ -267,7 +265,7 @@ static int32_t OldDistance(const kiriPlacerWork* work, int32_t cell)
 static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
 {
     kiriField_Reset(field);
-    return kiriSites_StartFlood(field, &job->work->seeds, job->memory, job->grid, job->placer->sites.data, first, end,
+    return kiriSites_StartFlood(field, &job->work->seeds, job->grid, job->placer->sites.data, first, end,
                                 job->work->holds.data);
 }
 
@@ -282,7 +280,7 @@ static bool IsNearest(const void* context, int32_t cell)
 static kiriProgress Flood(PlacerJob* job, kiriField* field, kiriPassFn* pass)
 {
     kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work, NULL };
-    return kiriField_Flood(field, job->memory, &rule, job->quota);
+    return kiriField_Flood(field, &rule, job->quota);
 }
 
 /* Visits cells of a list, from the cursor on. */
@@ -541,7 +539,7 @@ static kiriProgress EndRound(PlacerJob* job)
 
 /* ---- Rows in a rectangle ----------------------------------------------------------------------------------------- */
 
-bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t count, int32_t most)
+bool kiriPlacer_PlaceRows(kiriPlacer* placer, const kiriGrid* grid, int32_t count, int32_t most)
 {
     kiriMoments sum = { 0 };
     KIRI_ASSERT(placer->work != NULL && count > 0 && count <= most);
@@ -560,7 +558,7 @@ bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
     int32_t rows = (int32_t)(sqrt(count * size[1 - along] / size[along]) + 0.5);
     rows = kiriMax(rows, 1);
     count = kiriMin((count + rows - 1) / rows * rows, most);
-    if (!kiriArray_Reserve(memory, &placer->sites, count)) {
+    if (!kiriArray_Reserve(grid->mesh->memory, &placer->sites, count)) {
         return false;
     }
     KIRI_EACH_LISTED(at, placer->cells) {
@@ -653,9 +651,9 @@ static kiriProgress RunStage(PlacerJob* job)
     }
 }
 
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota)
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriGrid* grid, kiriQuota* quota)
 {
-    PlacerJob job = { placer, placer->work, memory, grid, quota };
+    PlacerJob job = { placer, placer->work, grid, quota };
     kiriProgress progress = KIRI_DONE;
     while (progress == KIRI_DONE && job.work != NULL && job.work->stage != PLACER_RESTS) {
         progress = RunStage(&job);
@@ -664,7 +662,7 @@ kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGr
 }
 
 /* Starts the field from the slit ends, where it is wanted and sites are to be closer there. */
-static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, bool isWanted)
+static bool StartEnds(kiriPlacer* placer, const kiriGrid* grid, bool isWanted)
 {
     kiriPlacerWork* work = placer->work;
     double reach = placer->reach / grid->side, most = 4.0 * (grid->cells.count + 1.0);
@@ -678,22 +676,22 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->seeds.count = 0;
     KIRI_EACH(const kiriSlitEnd, end, placer->ends) {
         kiriSeed seed = { end->cell, 0, 0 };
-        if (!kiriArray_Push(memory, &work->seeds, seed)) {
+        if (!kiriArray_Push(grid->mesh->memory, &work->seeds, seed)) {
             return false;
         }
     }
-    if (!kiriField_Resize(&work->ends, memory, grid->cells.count, 0)) {
+    if (!kiriField_Resize(&work->ends, grid->mesh->memory, grid->cells.count, 0)) {
         return false;
     }
     kiriField_Reset(&work->ends);
-    return kiriField_Start(&work->ends, memory, work->seeds.data, work->seeds.count);
+    return kiriField_Start(&work->ends, grid->mesh->memory, work->seeds.data, work->seeds.count);
 }
 
-bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const uint8_t* allowed,
-                      int32_t count)
+bool kiriPlacer_Start(kiriPlacer* placer, const kiriGrid* grid, const uint8_t* allowed, int32_t count)
 {
-    kiriPlacerWork* work = PlacerWorkOf(placer, memory);
+    kiriPlacerWork* work = PlacerWorkOf(placer, grid);
     const kiriField* known = placer->known;
+    kiriMemory* memory = grid->mesh->memory;
     KIRI_ASSERT(count >= 0);
     count = kiriMin(count, placer->cells.count);
     placer->oldCount = placer->sites.count;
@@ -731,9 +729,9 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->left = count;
     work->due = 0;
     PlacerStage first = count == 0 ? PLACER_RESTS : count == 1 && placer->oldCount == 0 ? SUM_PART : FLOOD_ENDS;
-    PlacerJob job = { placer, work, memory, grid, NULL };
+    PlacerJob job = { placer, work, grid, NULL };
     if ((work->old == &work->flooded && !StartFlood(&job, &work->flooded, 0, placer->oldCount)) ||
-        !StartEnds(placer, memory, grid, first == FLOOD_ENDS)) {
+        !StartEnds(placer, grid, first == FLOOD_ENDS)) {
         return false;
     }
     work->stage = first;

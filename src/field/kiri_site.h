@@ -31,8 +31,8 @@ typedef struct kiriSlitSearch {
 
 /* Finds the slit ends in these cells, one a cell at most, in the order of the cells. An item is 3 vertices, or 16
    cells. After KIRI_FAILED, start again. */
-kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
-                                const int32_t* cells, int32_t cellCount, kiriQuota* quota);
+kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, const kiriGrid* grid, const int32_t* cells,
+                                int32_t cellCount, kiriQuota* quota);
 
 /* Returns a site to the left of a slit end; left below 0: to its right. Its cell is KIRI_NONE where a cut or the outline is
    between. */
@@ -42,8 +42,7 @@ kiriSite kiriSlit_SiteBeside(const kiriGrid* grid, const kiriSlitEnd* end, doubl
    which the slit would go on is a border between their regions. An end without room gets a closer pair, but not closer
    than two squares, and none where other sites are too near. In the order of the ends, until there are `most` sites,
    each in another cell. False when out of memory. */
-bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriSlitEnds* ends,
-                        double spacing, int32_t most);
+bool kiriSlits_AddPairs(kiriSites* sites, const kiriGrid* grid, const kiriSlitEnds* ends, double spacing, int32_t most);
 
 typedef struct kiriPlacerWork kiriPlacerWork; /* private */
 
@@ -64,27 +63,26 @@ typedef struct kiriPlacer {
 } kiriPlacer;
 
 /* Lists the cells connected to this one over faces, in the order of cells, in placer->cells. Fails on out of memory. */
-bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
+bool kiriPlacer_TakePiece(kiriPlacer* placer, const kiriGrid* grid, int32_t cell);
 
 /* Find the piece in steps: Start, which fails on out of memory, then continue until it is done. An item of the quota is
    a number of cells. Done at once if the piece is already listed. After KIRI_FAILED or to give up, start again. */
-bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
-kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
+bool kiriPlacer_StartPiece(kiriPlacer* placer, const kiriGrid* grid, int32_t cell);
+kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, const kiriGrid* grid, kiriQuota* quota);
 
 /* Puts `count` sites, or up to `most` for even rows, in straight rows into the part in placer->cells, if it is a rectangle
    along the axes and has a square of the grid for each site; otherwise it leaves no sites. Regions have the same area.
    False when out of memory. */
-bool kiriPlacer_PlaceRows(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t count, int32_t most);
+bool kiriPlacer_PlaceRows(kiriPlacer* placer, const kiriGrid* grid, int32_t count, int32_t most);
 
 /* Starts to place `count` more sites in the part in placer->cells, or one in each free cell where there are fewer. The
    sites in placer->sites lie in the part, each in another cell. Sampling takes only cells that `allowed` marks (one
    byte a cell of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell
    nearest to the centroid, without relaxation: confetti comes in thousands. False when out of memory. */
-bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const uint8_t* allowed,
-                      int32_t count);
+bool kiriPlacer_Start(kiriPlacer* placer, const kiriGrid* grid, const uint8_t* allowed, int32_t count);
 
 /* Continues the work. An item of the quota is a settled cell, or four visited ones. After KIRI_FAILED, start again. */
-kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
+kiriProgress kiriPlacer_Run(kiriPlacer* placer, const kiriGrid* grid, kiriQuota* quota);
 
 /* Work of a placer. Private to kiri_site.c and to snapshots. */
 

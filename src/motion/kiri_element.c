@@ -213,13 +213,13 @@ static bool FloodFromPoints(PointBuilder* b)
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
     KIRI_EACH_INDEX(i, *points) {
-        if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, &work->seeds)) {
+        if (!kiriSite_Seed(&points->data[i], i, b->grid, &work->seeds)) {
             return false;
         }
     }
     return kiriField_Resize(&work->field, b->memory, b->grid->cells.count, KIRI_FIELD_OWNERS) &&
            kiriField_Start(&work->field, b->memory, work->seeds.data, work->seeds.count) &&
-           kiriField_Flood(&work->field, b->memory, &rule, &endless) == KIRI_DONE;
+           kiriField_Flood(&work->field, &rule, &endless) == KIRI_DONE;
 }
 
 /* Divides the piece into the regions of its points, as placing does: the cell of a point belongs to the point. */
@@ -245,7 +245,7 @@ static bool DividePiece(PointBuilder* b)
 static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 {
     kiriIntegrationWork* work = b->work;
-    if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
+    if (!kiriPlacer_TakePiece(&work->placer, b->grid, cell)) {
         return false;
     }
     kiriMoments material = NoMaterial;
@@ -259,8 +259,8 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
     double share = material.area * b->perArea + 0.5;
     int32_t cells = work->placer.cells.count, count = share < 2.0 ? 1 : share < cells ? (int32_t)share : cells;
     work->placer.sites.count = 0;
-    bool ok = kiriPlacer_Start(&work->placer, b->memory, b->grid, NULL, count) &&
-              kiriPlacer_Run(&work->placer, b->memory, b->grid, &endless) == KIRI_DONE;
+    bool ok = kiriPlacer_Start(&work->placer, b->grid, NULL, count) &&
+              kiriPlacer_Run(&work->placer, b->grid, &endless) == KIRI_DONE;
     if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
         return AddIntegrationPoint(b, &points->data[0], &material);
     }
@@ -273,11 +273,11 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 
 /* ---- All ------------------------------------------------------------------------------------------------------ */
 
-bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
-                           const kiriGrid* grid, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar)
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, const kiriGrid* grid,
+                           const kiriShape* shape, const kiriMoments* material, double count, int32_t order,
+                           bool planar)
 {
-    PointBuilder b = { memory, grid, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
+    PointBuilder b = { grid->mesh->memory, grid, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     double total = 0.0; /* summed in the order of cells, as are the pieces below */
     KIRI_EACH_INDEX(s, grid->squareCell) {
         KIRI_EACH_CELL(c, grid, s) {
@@ -287,7 +287,7 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
     b.perArea = count / total;
     b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
     elements->elements.count = elements->shares.count = 0;
-    bool ok = kiriArray_Resize(memory, &work->seen, grid->cells.count);
+    bool ok = kiriArray_Resize(b.memory, &work->seen, grid->cells.count);
     kiriArray_Set(&work->seen, 0);
     KIRI_EACH_INDEX_WHILE(ok, s, grid->squareCell) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {

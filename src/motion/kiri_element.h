@@ -91,9 +91,9 @@ typedef struct kiriIntegrationWork {
    the strain is linear in the region (after the elastons of Martin et al. 2010). It is measured at four places that
    have the region's second moments, at four times the cost. `material`: one entry for each frame's region. Fails on out
    of memory. */
-bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
-                           const kiriGrid* grid, const kiriShape* shape, const kiriMoments* material, double count,
-                           int32_t order, bool planar);
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, const kiriGrid* grid,
+                           const kiriShape* shape, const kiriMoments* material, double count, int32_t order,
+                           bool planar);
 
 KIRI_C_END
 

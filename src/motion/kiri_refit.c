@@ -12,11 +12,11 @@ static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t squ
     return true;
 }
 
-static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
+static bool ReserveOwners(kiriOwnership* ownership, const kiriMeshData* mesh)
 {
     int32_t count = mesh->squares.columns * mesh->squares.rows;
-    if (!kiriArray_ReserveJust(memory, &ownership->squares, count) ||
-        !kiriArray_ReserveJust(memory, &ownership->isDirty, count)) {
+    if (!kiriArray_ReserveJust(mesh->memory, &ownership->squares, count) ||
+        !kiriArray_ReserveJust(mesh->memory, &ownership->isDirty, count)) {
         return false;
     }
     while (ownership->squares.count < count) {
@@ -26,22 +26,21 @@ static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const ki
     return true;
 }
 
-bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriOwnership_NoteDirty(kiriOwnership* ownership, const kiriMeshData* mesh)
 {
-    bool ok = ReserveOwners(ownership, memory, mesh);
+    bool ok = ReserveOwners(ownership, mesh);
     KIRI_EACH_WHILE(ok, const int32_t, square, mesh->squares.dirty) {
-        ok = NoteSquare(ownership, memory, *square);
+        ok = NoteSquare(ownership, mesh->memory, *square);
     }
     return ok;
 }
 
-bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
-                               const kiriRegions* regions)
+bool kiriOwnership_NoteChanges(kiriOwnership* ownership, const kiriGrid* grid, const kiriRegions* regions)
 {
-    bool ok = ReserveOwners(ownership, memory, grid->mesh);
+    bool ok = ReserveOwners(ownership, grid->mesh);
     KIRI_EACH_WHILE(ok, const kiriSeed, change, regions->changes) {
         int32_t cell = change->cell;
-        ok = !kiriGrid_IsCell(grid, cell) || NoteSquare(ownership, memory, grid->cells.data[cell].square);
+        ok = !kiriGrid_IsCell(grid, cell) || NoteSquare(ownership, grid->mesh->memory, grid->cells.data[cell].square);
     }
     return ok;
 }
@@ -95,15 +94,14 @@ static kiriTransfer* FindTransfer(kiriOwnership* ownership, kiriMemory* memory, 
 }
 
 /* Finds the material of a square that changes owner, and stages its owners. A square without cells has none. */
-static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const int32_t* owner,
-                        int32_t square)
+static bool StageSquare(kiriOwnership* ownership, const kiriGrid* grid, const int32_t* owner, int32_t square)
 {
     const kiriMeshData* mesh = grid->mesh;
     int32_t cell = grid->squareCell.data[square];
     KIRI_EACH_CELL(c, grid, square) {
         int32_t from = OwnerBefore(ownership, mesh, square, grid->cells.data[c].triangle);
         if (from != KIRI_NONE && from != owner[c]) {
-            kiriTransfer* transfer = FindTransfer(ownership, memory, owner[c], from);
+            kiriTransfer* transfer = FindTransfer(ownership, mesh->memory, owner[c], from);
             kiriMoments material = kiriGrid_Material(grid, c);
             if (transfer == NULL) {
                 return false;
@@ -117,8 +115,8 @@ static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiri
     kiriStagedOwners staged = { square, { owner[cell], { 0, 0 } } };
     bool isDivided = grid->cells.data[cell].next != KIRI_NONE;
     int32_t count = isDivided ? kiriSquares_CountNodes(&mesh->squares, square) : 0;
-    if (!kiriArray_ReserveMore(memory, &ownership->staged, 1) ||
-        !kiriSpan_Resize(&staged.owners.parts, &ownership->spans, memory, &ownership->triangleOwners,
+    if (!kiriArray_ReserveMore(mesh->memory, &ownership->staged, 1) ||
+        !kiriSpan_Resize(&staged.owners.parts, &ownership->spans, mesh->memory, &ownership->triangleOwners,
                          sizeof(kiriTriangleOwner), count)) {
         return false;
     }
@@ -146,16 +144,16 @@ static void DropStagedOwners(kiriOwnership* ownership)
     ownership->due = 0;
 }
 
-kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                             bool isScratch, kiriQuota* quota)
+kiriProgress kiriRefit_Stage(kiriRefit* refit, const kiriGrid* grid, const kiriRegions* regions, bool isScratch,
+                             kiriQuota* quota)
 {
     enum { WHOLE_AN_ITEM = 8, NODES_AN_ITEM = 8 };
     kiriOwnership* ownership = &refit->ownership;
+    kiriMemory* memory = grid->mesh->memory;
     int32_t frameCount = regions->material.count;
     if (ownership->next == 0) {
         DropStagedOwners(ownership);
-        bool ok =
-            ReserveOwners(ownership, memory, grid->mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
+        bool ok = ReserveOwners(ownership, grid->mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
         kiriArray_Set(&ownership->first, KIRI_NONE);
         KIRI_EACH_INDEX_WHILE(ok && isScratch, s, ownership->isDirty) {
             ok = NoteSquare(ownership, memory, s);
@@ -169,7 +167,7 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
            ownership->next < ownership->dirty.count) {
         int32_t square = ownership->dirty.data[ownership->next++], cell = grid->squareCell.data[square];
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-        if (!StageSquare(ownership, memory, grid, regions->field.owner.data, square)) {
+        if (!StageSquare(ownership, grid, regions->field.owner.data, square)) {
             ownership->next = 0;
             return KIRI_FAILED;
         }

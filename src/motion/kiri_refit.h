@@ -76,9 +76,8 @@ typedef struct kiriRefit {
 
 /* Mark the squares dirty in which owners may change: mesh->squares.dirty, and the squares of regions->changes. Call
    them before these lists are cleared. False when out of memory. */
-bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh);
-bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
-                               const kiriRegions* regions);
+bool kiriOwnership_NoteDirty(kiriOwnership* ownership, const kiriMeshData* mesh);
+bool kiriOwnership_NoteChanges(kiriOwnership* ownership, const kiriGrid* grid, const kiriRegions* regions);
 
 /* Follows cells and frames that were taken away, and triangles that were renumbered. `of`: the squares that lost cells.
    Call it after grid and regions; nothing may be dirty or staged. Cannot fail. */
@@ -88,8 +87,8 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
 /* Finds the material that changes owner with the next commit, in dirty squares, or in all where `isScratch`; and makes
    room for the fits. A square with several cells is an item, plus one for eight of its triangles; eight other squares
    are one. KIRI_MORE: call again. */
-kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriRegions* regions,
-                             bool isScratch, kiriQuota* quota);
+kiriProgress kiriRefit_Stage(kiriRefit* refit, const kiriGrid* grid, const kiriRegions* regions, bool isScratch,
+                             kiriQuota* quota);
 
 /* Drops everything dirty, staged and fitted. */
 void kiriRefit_Drop(kiriRefit* refit);

@@ -255,9 +255,8 @@ static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* t
     KIRI_EACH_LISTED_WHILE(ok, was, points) {
         kiriSample point = { detach->sheet->points.data[was].at, KIRI_NONE, KIRI_NONE };
         kiriSpan none = { 0 };
-        ok = kiriArray_Push(to->memory, &to->points, point) &&
-             kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
-             kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
+        ok = kiriArray_Push(to->memory, &to->points, point) && kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
+             kiriPlaces_Add(&to->pointPlaces, &to->mesh, point.at);
     }
     return ok;
 }
@@ -651,14 +650,14 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     int32_t maxFrames = sheet->settings.maxFrames;
     if (!kiriArray_ResizeJust(sheet->memory, &vertices->spans, sheet->mesh.vertices.count) ||
         !kiriArray_ResizeJust(sheet->memory, &points->spans, sheet->points.count) ||
-        !kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.count) ||
+        !kiriPlaces_Reserve(&sheet->pointPlaces, &sheet->mesh, sheet->points.count) ||
         !kiriArray_Resize(sheet->memory, &u->placing.sites, sheet->frames.count)) {
         return false;
     }
     kiriArray_Set(&vertices->spans, 0);
     kiriArray_Set(&points->spans, 0);
     KIRI_EACH(const kiriSample, point, sheet->points) {
-        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, point->at); /* has room */
+        kiriPlaces_Add(&sheet->pointPlaces, &sheet->mesh, point->at); /* has room */
     }
     KIRI_EACH_INDEX(f, sheet->frames) {
         u->placing.sites.data[f] = (kiriSite){ sheet->frames.data[f].site.at, 0 };

@@ -398,7 +398,7 @@ static bool IsCrumbTaken(const kiriSheetData* sheet)
 kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
-    kiriProgress progress = kiriPlacer_Run(&placing->placer, sheet->memory, &sheet->grid, quota);
+    kiriProgress progress = kiriPlacer_Run(&placing->placer, &sheet->grid, quota);
     placing->isPlacing = progress == KIRI_MORE;
     return progress;
 }
@@ -470,20 +470,19 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, int32_t own, doubl
         int32_t room = sheet->settings.maxFrames - sheet->update->placing.sites.count + own;
         int32_t most = kiriSites_MostIn(placer->cells.count);
         most = isOpen ? kiriMin(room, most) : count;
-        if (!kiriPlacer_PlaceRows(placer, sheet->memory, &sheet->grid, count, kiriMax(count, most))) {
+        if (!kiriPlacer_PlaceRows(placer, &sheet->grid, count, kiriMax(count, most))) {
             return false;
         }
         if (placer->sites.count > 0) {
-            return kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL, 0);
+            return kiriPlacer_Start(placer, &sheet->grid, NULL, 0);
         }
     }
     double closeness = ClosenessFor(sheet, spacing), reach = isOpen ? OPEN_REACH : GIVEN_REACH;
     placer->sites.count = 0;
     placer->closeness = closeness;
     placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
-    return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &placer->ends, spacing / closeness,
-                              count / 2) &&
-           kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL, count - placer->sites.count);
+    return kiriSlits_AddPairs(&placer->sites, &sheet->grid, &placer->ends, spacing / closeness, count / 2) &&
+           kiriPlacer_Start(placer, &sheet->grid, NULL, count - placer->sites.count);
 }
 
 /* Finds a place for a pair of sites beside a pin: on each side of both ends of a line, in four directions from a point.
@@ -552,13 +551,13 @@ static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cel
     kiriPlacer* placer = &placing->placer;
     if (!placing->isTaking) {
         placing->search = (kiriSlitSearch){ 0 };
-        if (!kiriPlacer_StartPiece(placer, sheet->memory, &sheet->grid, cell)) {
+        if (!kiriPlacer_StartPiece(placer, &sheet->grid, cell)) {
             return KIRI_FAILED;
         }
     }
-    kiriProgress progress = kiriPlacer_GoOnWithPiece(placer, sheet->memory, &sheet->grid, cells);
+    kiriProgress progress = kiriPlacer_GoOnWithPiece(placer, &sheet->grid, cells);
     if (progress == KIRI_DONE) {
-        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, placer->cells.data,
+        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, &sheet->grid, placer->cells.data,
                                       placer->cells.count, cells);
     }
     if (progress == KIRI_DONE && placing->isAfresh && !AddHoldEnds(sheet)) {
@@ -752,7 +751,7 @@ static bool AddToPiece(kiriSheetData* sheet)
         return StartPlacing(sheet, count, placing->own.count, SpacingOf(sheet, count));
     }
     placing->placer.known = &sheet->regions.field;
-    return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, placing->allowed.data, more);
+    return kiriPlacer_Start(&placing->placer, &sheet->grid, placing->allowed.data, more);
 }
 
 /* Stores the placed sites: they reuse the indices of sites that were placed again, then get new ones. A piece without a

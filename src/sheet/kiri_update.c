@@ -26,7 +26,7 @@ static kiriProgress MoveBlade(kiriSheetData* sheet, kiriBladeTip* blade, kiriLat
         kiriProgress progress = kiriCut_Move(&sheet->mesh, blade, to, sheet->settings.snap, &step);
         triangles->left -= step.used;
         triangles->used += step.used;
-        kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh);
+        kiriSkin_Inherit(&sheet->vertexSkin, &sheet->mesh);
         if (progress == KIRI_DONE) {
             (void)kiriQuota_Pay(triangles, &blade->owed);
         }
@@ -124,8 +124,8 @@ static kiriProgress StageGrid(kiriSheetData* sheet, kiriQuota* cells)
     kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
     if (progress == KIRI_DONE) {
         const kiriGridChanges* changes = &sheet->grid.changes;
-        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh) ||
-            !kiriRefresh_NoteDirty(&u->samples.refresh, sheet->memory, &sheet->mesh)) {
+        if (!kiriOwnership_NoteDirty(&u->refit.ownership, &sheet->mesh) ||
+            !kiriRefresh_NoteDirty(&u->samples.refresh, &sheet->mesh)) {
             return KIRI_FAILED;
         }
         kiriSquares_ClearDirty(&sheet->mesh.squares);
@@ -139,7 +139,7 @@ static kiriProgress StageGrid(kiriSheetData* sheet, kiriQuota* cells)
 static kiriProgress DivideRegions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
-    kiriProgress progress = kiriRegions_Update(&sheet->regions, sheet->memory, &sheet->grid, u->placing.sites.data,
+    kiriProgress progress = kiriRegions_Update(&sheet->regions, &sheet->grid, u->placing.sites.data,
                                                u->placing.sites.count, u->placing.moves.data + u->placing.movesSeen,
                                                u->placing.moves.count - u->placing.movesSeen, cells);
     if (progress == KIRI_DONE) {
@@ -180,10 +180,10 @@ static kiriProgress WeighCells(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     kiriProgress progress =
-        kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->regions, u->placing.sites.data,
-                         u->placing.sites.count, u->placing.moves.data, u->placing.moves.count, cells);
+        kiriShape_Update(&sheet->shape, &sheet->grid, &sheet->regions, u->placing.sites.data, u->placing.sites.count,
+                         u->placing.moves.data, u->placing.moves.count, cells);
     if (progress == KIRI_DONE) {
-        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->regions)) {
+        if (!kiriOwnership_NoteChanges(&u->refit.ownership, &sheet->grid, &sheet->regions)) {
             return KIRI_FAILED;
         }
         kiriGrid_ClearChanges(&sheet->grid);
@@ -241,8 +241,7 @@ static kiriProgress StageShape(kiriSheetData* sheet, kiriQuota* cells)
         sheet->update->step = MAKE_LINKS;
     }
     const kiriSites* sites = &sheet->update->placing.sites;
-    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->regions, sites->data, sites->count,
-                            cells);
+    return kiriLinks_Update(&sheet->links, &sheet->grid, &sheet->regions, sites->data, sites->count, cells);
 }
 
 /* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
@@ -292,7 +291,7 @@ static bool AddCollisionPoints(kiriSheetData* sheet)
         cell = kiriGrid_CellAround(&sheet->grid, at); /* the anchor may lie in a neighboring cell */
         kiriSample point = { at, cell, KIRI_NONE };
         if (!kiriArray_Push(sheet->memory, &u->samples.newPoints, point) ||
-            !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, sample, cell,
+            !kiriSkin_Stage(&sheet->pointSkin, &sheet->shape, &sheet->grid, sample, cell,
                             kiriMesh_Local(&sheet->mesh, point.at))) {
             return false;
         }
@@ -311,8 +310,8 @@ static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* sample
         kiriPlacer* placer = &u->placing.placer;
         int32_t cell = u->placing.sites.data[u->next.pieces.data[u->placing.at].frame].cell;
         placer->sites.count = u->placing.isPlacing ? placer->sites.count : 0;
-        if (!u->placing.isPlacing && (!kiriPlacer_TakePiece(placer, sheet->memory, &sheet->grid, cell) ||
-                                      !kiriPlacer_Start(placer, sheet->memory, &sheet->grid, NULL,
+        if (!u->placing.isPlacing && (!kiriPlacer_TakePiece(placer, &sheet->grid, cell) ||
+                                      !kiriPlacer_Start(placer, &sheet->grid, NULL,
                                                         kiriSites_ShareOf(sheet, sheet->settings.collisionPoints)))) {
             return KIRI_FAILED;
         }
@@ -399,7 +398,7 @@ static bool BuildAreaElements(kiriSheetData* sheet)
         return kiriAffine_Build(&u->next.areaElements, sheet->memory, sheet->links.next.data, sheet->links.next.count,
                                 u->material.data, u->placing.sites.count, planar);
     case KIRI_MODEL_POINTS:
-        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->shape,
+        return kiriIntegration_Build(&u->next.areaElements, &u->integration, &sheet->grid, &sheet->shape,
                                      u->material.data, sheet->settings.integrationPoints,
                                      sheet->settings.integrationOrder, planar);
     default:
@@ -427,7 +426,7 @@ static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* sampl
     kiriUpdate* u = sheet->update;
     u->newFrames.count = 0;
     u->due = 0;
-    return kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->regions, u->isScratch, samples);
+    return kiriRefit_Stage(&u->refit, &sheet->grid, &sheet->regions, u->isScratch, samples);
 }
 
 /* Finds the anchors of new frames and the triangles that they take their motion from. */
@@ -468,20 +467,18 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
     int32_t points = sheet->points.count + u->samples.newPoints.count;
     const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
                                     points };
-    bool ok = (!kiriSheet_KeepsPulls(sheet) ||
-               kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
-                                         kiriMax(sheet->links.next.count, sheet->links.links.count),
-                                         u->placing.sites.count)) &&
-              (!sheet->plastics.isKept ||
-               kiriPlastics_Reserve(&sheet->plastics, sheet->memory,
-                                    kiriMax(sheet->links.next.count, sheet->links.links.count),
-                                    u->placing.sites.count)) &&
-              BuildAreaElements(sheet) && kiriPins_Stage(sheet) &&
-              kiriArray_Reserve(sheet->memory, &sheet->points, points) &&
-              kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, points) &&
-              kiriView_Reserve(sheet, counts) &&
-              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
-              kiriStage_Solver(sheet, u->placing.sites.count, &sheet->settings.material, true);
+    bool ok =
+        (!kiriSheet_KeepsPulls(sheet) ||
+         kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
+                                   kiriMax(sheet->links.next.count, sheet->links.links.count),
+                                   u->placing.sites.count)) &&
+        (!sheet->plastics.isKept ||
+         kiriPlastics_Reserve(&sheet->plastics, sheet->memory,
+                              kiriMax(sheet->links.next.count, sheet->links.links.count), u->placing.sites.count)) &&
+        BuildAreaElements(sheet) && kiriPins_Stage(sheet) && kiriArray_Reserve(sheet->memory, &sheet->points, points) &&
+        kiriPlaces_Reserve(&sheet->pointPlaces, &sheet->mesh, points) && kiriView_Reserve(sheet, counts) &&
+        kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
+        kiriStage_Solver(sheet, u->placing.sites.count, &sheet->settings.material, true);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }
 
@@ -795,7 +792,7 @@ static void CommitPoints(kiriSheetData* sheet)
     }
     KIRI_EACH(const kiriSample, fresh, u->samples.newPoints) {
         KIRI_NEXT(sheet->points) = *fresh;
-        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, fresh->at);
+        kiriPlaces_Add(&sheet->pointPlaces, &sheet->mesh, fresh->at);
     }
     KIRI_EACH(kiriSample, point, sheet->points) {
         point->frame = sheet->regions.field.owner.data[point->cell];

@@ -64,10 +64,10 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     return true;
 }
 
-bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid, int32_t sample,
-                    int32_t cell, kiriVec2 at)
+bool kiriSkin_Stage(kiriSkin* skin, const kiriShape* shape, const kiriGrid* grid, int32_t sample, int32_t cell,
+                    kiriVec2 at)
 {
-    kiriMemory scratch = kiriMemory_Like(memory);
+    kiriMemory *memory = grid->mesh->memory, scratch = kiriMemory_Like(memory);
     kiriStencil stencil = { 0 };
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, cell);
     if (ok) {
@@ -183,10 +183,10 @@ bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, 
     return kiriArray_ReserveMore(memory, &skin->spans, births) && kiriArray_Reserve(memory, &skin->weights, weights);
 }
 
-void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)
+void kiriSkin_Inherit(kiriSkin* skin, const kiriMeshData* mesh)
 {
     KIRI_FROM_TO(v, skin->spans.count, mesh->vertices.count) {
-        InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount]);
+        InheritOne(skin, mesh->memory, &mesh->births.data[v - mesh->oldVertexCount]);
     }
 }
 
@@ -216,22 +216,22 @@ static int32_t SquareCount(const kiriMeshData* mesh)
     return mesh->squares.columns * mesh->squares.rows;
 }
 
-bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMeshData* mesh, int64_t sampleCount)
 {
     if (sampleCount == 0) {
         return true;
     }
-    if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
-        !kiriArray_ReserveJust(memory, &places->head, SquareCount(mesh))) {
+    if (!kiriArray_Reserve(mesh->memory, &places->next, sampleCount) ||
+        !kiriArray_ReserveJust(mesh->memory, &places->head, SquareCount(mesh))) {
         return false;
     }
     kiriArray_Extend(&places->head, SquareCount(mesh), KIRI_NONE);
     return true;
 }
 
-bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at)
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMeshData* mesh, kiriLatticePoint at)
 {
-    if (!kiriPlaces_Reserve(places, memory, mesh, (int64_t)places->next.count + 1)) {
+    if (!kiriPlaces_Reserve(places, mesh, (int64_t)places->next.count + 1)) {
         return false;
     }
     int32_t square = kiriSquares_At(&mesh->squares, at), sample = places->next.count++;
@@ -273,10 +273,10 @@ static void AddSquaresAround(kiriRefresh* refresh, const kiriMeshData* mesh, int
     }
 }
 
-bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriRefresh_NoteDirty(kiriRefresh* refresh, const kiriMeshData* mesh)
 {
     int32_t count = mesh->squares.dirty.count;
-    if (!kiriArray_Resize(memory, &refresh->noted, count)) {
+    if (!kiriArray_Resize(mesh->memory, &refresh->noted, count)) {
         return false;
     }
     if (count > 0) {
@@ -349,7 +349,7 @@ static bool WeighSample(kiriRefresh* refresh, const kiriSampleSource* source, in
 }
 
 /* Lists the vertices that creases join at the point of a vertex, ascending. */
-static bool ListJoined(kiriIndices* joined, kiriMemory* memory, const kiriMeshData* mesh, int32_t vertex)
+static bool ListJoined(kiriIndices* joined, const kiriMeshData* mesh, int32_t vertex)
 {
     int32_t start = mesh->vertices.data[vertex].edge, h = start;
     bool ok = true;
@@ -371,7 +371,7 @@ static bool ListJoined(kiriIndices* joined, kiriMemory* memory, const kiriMeshDa
         KIRI_EACH_LISTED(known, *joined) {
             isKnown = isKnown || known == v;
         }
-        ok = isKnown || kiriArray_Push(memory, joined, v);
+        ok = isKnown || kiriArray_Push(mesh->memory, joined, v);
         for (; ok && !isKnown && at > 0 && joined->data[at - 1] > v; --at) {
             joined->data[at] = joined->data[at - 1];
             joined->data[at - 1] = v;
@@ -413,7 +413,7 @@ static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSour
     kiriStencil* mean = &refresh->mean;
     refresh->joined.count = 0;
     bool isJoined = source->places == NULL && source->grid->mesh->folds.count > 0;
-    bool ok = !isJoined || ListJoined(&refresh->joined, source->memory, source->grid->mesh, sample);
+    bool ok = !isJoined || ListJoined(&refresh->joined, source->grid->mesh, sample);
     if (ok && refresh->joined.count < 2) {
         return WeighSample(refresh, source, square, sample) ? &refresh->stencil : NULL;
     }

@@ -44,8 +44,8 @@ typedef struct kiriMotion {
 
 /* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit. New
    samples, from `spans.count` on, are staged in ascending order. Returns false on out of memory. */
-bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid, int32_t sample,
-                    int32_t cell, kiriVec2 at);
+bool kiriSkin_Stage(kiriSkin* skin, const kiriShape* shape, const kiriGrid* grid, int32_t sample, int32_t cell,
+                    kiriVec2 at);
 
 /* Stages the weights of a sample of another skin for the next sample. Returns false on out of memory. */
 bool kiriSkin_StageCopy(kiriSkin* skin, kiriMemory* memory, const kiriSkin* from, int32_t was, const kiriKeep* frames);
@@ -65,8 +65,8 @@ typedef struct kiriPlaces {
 } kiriPlaces;
 
 /* Makes room for samples, so that Add cannot fail. */
-bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
-bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
+bool kiriPlaces_Reserve(kiriPlaces* places, const kiriMeshData* mesh, int64_t sampleCount);
+bool kiriPlaces_Add(kiriPlaces* places, const kiriMeshData* mesh, kiriLatticePoint at);
 
 /* Stages the samples whose weights may have changed: those in or beside the square of a cell in shape->changes, or in
    or beside a square that was noted. */
@@ -94,7 +94,7 @@ typedef struct kiriSampleSource {
 
 /* Notes the dirty squares of the mesh, which are cleared before Start: there cells may have the same weights but other
    material, and vertices may have come to a lip. Returns false on out of memory. */
-bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
+bool kiriRefresh_NoteDirty(kiriRefresh* refresh, const kiriMeshData* mesh);
 
 /* Finds the squares. Vertices from `firstVertex` on are new. An item of the quota is 16 changes. */
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* source, int32_t firstVertex,
@@ -109,7 +109,7 @@ void kiriRefresh_Drop(kiriRefresh* refresh);
 /* Give vertices born since kiriMesh_Begin a blend of their parents' weights, so that they lie on the old surface.
    Reserve makes room for `births` of them; no sample has more weights than there are frames. */
 bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames);
-void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
+void kiriSkin_Inherit(kiriSkin* skin, const kiriMeshData* mesh);
 
 /* Removes samples and frames. Samples that are kept have no weight of a frame that is removed. Nothing may be staged.
    Cannot fail. */
