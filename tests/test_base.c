@@ -108,24 +108,6 @@ TEST(SortsAnything)
     }
 }
 
-/* Each number as often as it was there, from the lowest on. */
-TEST(SortsNumbers)
-{
-    const int32_t counts[] = { 0, 1, 2, 100, 5000 }, mosts[] = { 0, 1, 2047, 2048, 5000000, INT32_MAX };
-    uint32_t seed = 31;
-    for (size_t c = 0; c < sizeof(counts) / sizeof(counts[0]); ++c) {
-        for (size_t m = 0; m < sizeof(mosts) / sizeof(mosts[0]); ++m) {
-            int32_t count = counts[c], items[5000], sorted[5000], room[5000];
-            for (int32_t i = 0; i < count; ++i) {
-                items[i] = sorted[i] = i == 0 ? mosts[m] : (int32_t)RandomBetween(&seed, 0.0, mosts[m]);
-            }
-            kiriSort(sorted, count, NULL, NULL);
-            kiriSort_Numbers(items, room, count);
-            assert_memory_equal(items, sorted, sizeof(int32_t) * (size_t)count);
-        }
-    }
-}
-
 /* ---- Rotations ---- */
 
 static kiriVec3 RandomVec3(uint32_t* seed, double size)

@@ -155,51 +155,6 @@ bool kiriSort_Order(kiriMemory* memory, kiriIndices* order, int32_t count, kiriB
     return true;
 }
 
-enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
-
-/* Sorts by one digit. Stable. */
-static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int shift)
-{
-    int32_t first[DIGITS + 1] = { 0 };
-    KIRI_TIMES(i, count) {
-        first[((items[i] >> shift) & (DIGITS - 1)) + 1] += 1;
-    }
-    KIRI_TIMES(d, DIGITS) {
-        first[d + 1] += first[d];
-    }
-    KIRI_TIMES(i, count) {
-        to[first[(items[i] >> shift) & (DIGITS - 1)]++] = items[i];
-    }
-}
-
-void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
-{
-    enum { FEW = 64 };
-    if (count <= FEW) {
-        for (int32_t i = 1, j; i < count; ++i) {
-            int32_t item = items[i];
-            for (j = i; j > 0 && items[j - 1] > item; --j) {
-                items[j] = items[j - 1];
-            }
-            items[j] = item;
-        }
-        return;
-    }
-    int32_t all = 0, *from = items, *to = room;
-    KIRI_TIMES(i, count) {
-        KIRI_ASSERT(items[i] >= 0);
-        all |= items[i];
-    }
-    for (int shift = 0; shift < 31 && all >> shift > 0; shift += DIGIT_BITS) {
-        SortByDigit(from, to, count, shift);
-        from = to;
-        to = from == items ? room : items;
-    }
-    if (from != items) {
-        memcpy(items, from, sizeof(*items) * count);
-    }
-}
-
 /* Returns the size class of a span of `count` items. Its capacity is 1 << class. */
 static int SizeClassOf(int32_t count)
 {

@@ -151,9 +151,6 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
 bool kiriSort_Order(kiriMemory* memory, kiriIndices* order, int32_t count, kiriBeforeFn* before,
                     const void* context);
 
-/* Sorts items of 0 and above, ascending, in linear time. `room` has room for as many. */
-void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
-
 /* Spans: many small lists in one array, such as the weights of each sample. The capacity of a span is the smallest
    power of two that holds its items; freed room is reused. */
 

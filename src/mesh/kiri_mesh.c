@@ -566,23 +566,19 @@ static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMe
 /* Lists the caller's triangles of which the part has something, and their corners. */
 static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 {
-    int32_t count = mesh->triangles.count, *sources, left = 0;
-    int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
-    bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
-    sources = mesh->sources.data;
+    int32_t count = mesh->triangles.count, left = 0;
+    bool ok = kiriArray_Resize(mesh->memory, &mesh->sources, count);
+    int32_t* sources = mesh->sources.data;
     KIRI_TIMES_WHILE(ok, t, count) {
         sources[t] = mesh->triangles.data[t].source;
     }
-    if (ok) {
-        kiriSort_Numbers(sources, room, count);
-    }
+    kiriSort(sources, ok ? count : 0, NULL, NULL);
     KIRI_TIMES_WHILE(ok, i, count) {
         if (left == 0 || sources[i] != sources[left - 1]) {
             sources[left++] = sources[i];
         }
     }
     mesh->sources.count = left;
-    kiriMemory_Free(mesh->memory, room);
     ok = ok && kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)left);
     KIRI_TIMES_WHILE(ok, k, left) {
         kiriMesh_SourceCorners(from, sources[k], &mesh->sourceCorners.data[3 * k]);
