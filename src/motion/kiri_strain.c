@@ -48,6 +48,16 @@
 /* Least difference of the squares of half a turn and of an angle. */
 #define LEAST_ROOM 1e-6
 
+/* Returns the row of a strain. rows: null if only strains are measured. */
+#define ROW_OF(rows, s) ((rows) != NULL ? &(rows)[s] : NULL)
+
+/* Weight of strains along the mean axes, and its derivative by `open`. If the directors are nearly opposite, a small
+   turn swings the mean axes round: a gap with no energy along one axis would get the energy of stretch along the next,
+   and block the motion. The squares of `keep` and of the part that is lost add up to 1. */
+typedef struct AxisFade {
+    double keep, slope, lost, lostSlope;
+} AxisFade;
+
 /* The mean axes of two frames: d is the mean director. The smallest turns that take the directors to d take the frames
    to two that differ by a turn about d: n and tau are their mean. When the frames turn by w_0 and w_1, the axes turn by
    the sum over k of n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
@@ -58,6 +68,7 @@ typedef struct MeanAxes {
     kiriVec3 openBy[2];
     double sine, cosine; /* of half the turn about d; cosine >= 0 */
     kiriVec3 turnBy;     /* derivative of that turn by w_1; the opposite by w_0 */
+    AxisFade fade;
 } MeanAxes;
 
 static kiriVec3 MeanDirectorOf(const kiriPose* const poses[2], kiriVec3 normal, double* open)
@@ -96,12 +107,27 @@ static void TakeNormal(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose
     }
 }
 
+static AxisFade FadeOf(double open)
+{
+    double share = open * open / FADING;
+    AxisFade fade = { 1.0, 0.0, 0.0, 0.0 };
+    if (share < 1.0) {
+        fade.keep = share * (2.0 - share);
+        fade.slope = 4.0 * (1.0 - share) * open / FADING;
+        double root = sqrt(1.0 + fade.keep);
+        fade.lost = (1.0 - share) * root;
+        fade.lostSlope = -4.0 * open / FADING * fade.keep / root;
+    }
+    return fade;
+}
+
 static MeanAxes MeanAxesOf(const kiriLink* link, const kiriPose* const poses[2], bool turns)
 {
     const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
     MeanAxes axes;
     axes.d = MeanDirectorOf(poses, normals[0], &axes.open);
     TakeNormal(&axes, normals, poses);
+    axes.fade = FadeOf(axes.open);
     KIRI_TIMES_WHILE(turns, k, 2) {
         kiriVec3 by = kiriVec3_Scale(0.5 / axes.open, poses[k]->A.d);
         axes.nBy[k] = kiriVec3_Cross(axes.tau, by);
@@ -258,40 +284,19 @@ static void HoldOffset(double share, double most, double onset, double e, const 
 /* Lets tension hold frames that tilt (kiri_strain.h). `aside`: the part along tau of the way from m to q. */
 static void HoldTilt(double aside, double lever, double onset, double* strain, kiriStrainRow* rows)
 {
-#define TILT_ROW(s) (rows != NULL ? &rows[s] : NULL)
     if (strain[KIRI_STRETCH] > 0.0) {
-        HoldOffset(TWIST_SHARE * aside * aside / lever, MOST_TILT, onset, strain[KIRI_TWIST], TILT_ROW(KIRI_TWIST),
-                   &strain[KIRI_STRETCH], TILT_ROW(KIRI_STRETCH));
+        HoldOffset(TWIST_SHARE * aside * aside / lever, MOST_TILT, onset, strain[KIRI_TWIST], ROW_OF(rows, KIRI_TWIST),
+                   &strain[KIRI_STRETCH], ROW_OF(rows, KIRI_STRETCH));
     }
-    HoldOffset(1.0 / lever, MOST_TILT * lever, onset, strain[KIRI_NORMAL_GAP], TILT_ROW(KIRI_NORMAL_GAP),
-               &strain[KIRI_SHEAR], TILT_ROW(KIRI_SHEAR));
-#undef TILT_ROW
-}
-
-/* Weight of strains along the mean axes, and its derivative by `open`. If the directors are nearly opposite, a small
-   turn swings the mean axes round: a gap with no energy along one axis would get the energy of stretch along the next,
-   and block the motion. */
-typedef struct AxisFade {
-    double keep, slope;
-} AxisFade;
-
-static AxisFade FadeOf(const MeanAxes* axes)
-{
-    double share = axes->open * axes->open / FADING;
-    AxisFade fade = { 1.0, 0.0 };
-    if (share < 1.0) {
-        fade.keep = share * (2.0 - share);
-        fade.slope = 4.0 * (1.0 - share) * axes->open / FADING;
-    }
-    return fade;
+    HoldOffset(1.0 / lever, MOST_TILT * lever, onset, strain[KIRI_NORMAL_GAP], ROW_OF(rows, KIRI_NORMAL_GAP),
+               &strain[KIRI_SHEAR], ROW_OF(rows, KIRI_SHEAR));
 }
 
 /* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. In a
    fold the row derives the length, with or without an excess: the solver uses it for steps that run into the stop. */
 static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
-    AxisFade fade = FadeOf(axes);
-    double normal = kiriVec3_Dot(m->gap, axes->d), lost = 1.0 - fade.keep;
+    double normal = kiriVec3_Dot(m->gap, axes->d), lost = 1.0 - axes->fade.keep;
     double aside = kiriVec3_Dot(m->gap, m->gap) - normal * normal;
     double length = sqrt(normal * normal + lost * lost * aside);
     *strain = length > most ? length - most : 0.0;
@@ -305,7 +310,7 @@ static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, 
         ScaleRow(row, per * (1.0 - lost * lost) * normal);
         WriteGap(axes, m->gap, m, &whole);
         AddRow(row, per * lost * lost, &whole);
-        AddOpening(axes, -per * lost * aside * fade.slope, row);
+        AddOpening(axes, -per * lost * aside * axes->fade.slope, row);
     }
 }
 
@@ -370,28 +375,26 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
 static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRow* byBending, double* strain,
                         kiriStrainRow* rows)
 {
-    double twist = strain[KIRI_TWIST], share = axes->open * axes->open / FADING;
-    strain[KIRI_FOLD] = 0.0;
+    const AxisFade* fade = &axes->fade;
+    double twist = strain[KIRI_TWIST], angle = sqrt(bending * bending + twist * twist);
+    strain[KIRI_FOLD] = fade->lost * angle;
     if (rows != NULL) {
         KIRI_CLEAR(&rows[KIRI_FOLD]);
     }
-    if (!(share < 1.0)) {
+    if (!(fade->lost > 0.0)) {
         return;
     }
-    AxisFade fade = FadeOf(axes);
-    double angle = sqrt(bending * bending + twist * twist), root = sqrt(1.0 + fade.keep), lost = (1.0 - share) * root;
-    strain[KIRI_FOLD] = lost * angle;
     if (rows != NULL && angle > 0.0) {
-        AddRow(&rows[KIRI_FOLD], lost * bending / angle, byBending);
-        AddRow(&rows[KIRI_FOLD], lost * twist / angle, &rows[KIRI_TWIST]);
-        AddOpening(axes, -4.0 * axes->open / FADING * fade.keep / root * angle, &rows[KIRI_FOLD]);
+        AddRow(&rows[KIRI_FOLD], fade->lost * bending / angle, byBending);
+        AddRow(&rows[KIRI_FOLD], fade->lost * twist / angle, &rows[KIRI_TWIST]);
+        AddOpening(axes, fade->lostSlope * angle, &rows[KIRI_FOLD]);
     }
     for (int s = 0; s <= KIRI_NORMAL_GAP; ++s) {
         if (rows != NULL) {
-            ScaleRow(&rows[s], fade.keep);
-            AddOpening(axes, fade.slope * strain[s], &rows[s]);
+            ScaleRow(&rows[s], fade->keep);
+            AddOpening(axes, fade->slope * strain[s], &rows[s]);
         }
-        strain[s] *= fade.keep;
+        strain[s] *= fade->keep;
     }
 }
 
@@ -400,12 +403,12 @@ static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRo
 static void MeasureSlide(const MeanAxes* axes, const kiriPose* const poses[2], const EndVectors* b, double* strain,
                          kiriStrainRow* row)
 {
-    double share = axes->open * axes->open / FADING;
+    double lost = axes->fade.lost;
     *strain = 0.0;
     if (row != NULL) {
         KIRI_CLEAR(row);
     }
-    if (!(share < 1.0)) {
+    if (!(lost > 0.0)) {
         return;
     }
     const kiriMat3 *from = &poses[0]->A, *to = &poses[1]->A;
@@ -414,7 +417,6 @@ static void MeasureSlide(const MeanAxes* axes, const kiriPose* const poses[2], c
     kiriVec3 a = uu > vv ? from->u : from->v;
     kiriVec3 both = kiriVec3_Add(uu > vv ? to->u : to->v, kiriMat3_Mul(*from, kiriMat3_MulTransposed(to, a)));
     kiriVec3 axis = kiriVec3_Normalize(kiriVec3_AddScaled(both, 1.0 - trace, a));
-    double keep = FadeOf(axes).keep, root = sqrt(1.0 + keep), lost = (1.0 - share) * root; /* lost^2 + keep^2 = 1 */
     double slide = kiriVec3_Dot(b->gap, axis);
     *strain = lost * slide;
     if (row != NULL) {
@@ -427,7 +429,7 @@ static void MeasureSlide(const MeanAxes* axes, const kiriPose* const poses[2], c
             row->end[k].move = kiriVec3_Scale(sign, axis);
             row->end[k].turn = kiriVec3_Scale(sign, kiriVec3_Add(kiriVec3_Cross(arm, axis), swing));
         }
-        AddOpening(axes, -4.0 * axes->open / FADING * keep / root * slide, row);
+        AddOpening(axes, axes->fade.lostSlope * slide, row);
     }
 }
 
@@ -439,11 +441,10 @@ static void MeasureSlide(const MeanAxes* axes, const kiriPose* const poses[2], c
 static void TakeRibbon(const kiriLink* link, const MeanAxes* axes, double poissonsRatio, const kiriCurl* curl,
                        double* strain, kiriStrainRow* rows)
 {
-    AxisFade fade = FadeOf(axes);
     double lone = kiriLink_LoneWidth(link), nu = poissonsRatio, byQ;
     double b = strain[KIRI_BENDING], t = strain[KIRI_TWIST];
     double held = kiriCurl_Held(curl->perSquare * b * b, &byQ), sum = t * t - 2.0 * nu * b * b;
-    double whole = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), stiff = fade.keep * whole;
+    double whole = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), stiff = axes->fade.keep * whole;
     double part = stiff * held * sum;
     double z = t * t * part, room = HALF_TURN * HALF_TURN - t * t - b * b;
     double R = kiriMax(room, LEAST_ROOM), per = 1.0 / sqrt(z * z + R * R);
@@ -458,7 +459,7 @@ static void TakeRibbon(const kiriLink* link, const MeanAxes* axes, double poisso
         AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t, &rows[KIRI_TWIST]);
         ScaleRow(&rows[KIRI_TWIST], factor + t * t * byT / factor);
         AddRow(&rows[KIRI_TWIST], t * b * byB / factor, &rows[KIRI_BENDING]);
-        AddOpening(axes, 0.5 * t * byPart * whole * held * sum * fade.slope / factor, &rows[KIRI_TWIST]);
+        AddOpening(axes, 0.5 * t * byPart * whole * held * sum * axes->fade.slope / factor, &rows[KIRI_TWIST]);
     }
 }
 
@@ -545,14 +546,12 @@ static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[
         axes[k][1] = kiriPose_Along(poses[k], link->tangent);
         axes[k][2] = poses[k]->A.d;
     }
-#define FOLD_ROW(s) (rows != NULL ? &rows[s] : NULL)
-    strain[KIRI_STRETCH] = MeasureAlong(axes[0][0], b.gap, &b, FOLD_ROW(KIRI_STRETCH));
-    strain[KIRI_SHEAR] = MeasureAlong(axes[0][1], b.gap, &b, FOLD_ROW(KIRI_SHEAR));
-    strain[KIRI_NORMAL_GAP] = MeasureAlong(axes[0][2], b.gap, &b, FOLD_ROW(KIRI_NORMAL_GAP));
-    strain[KIRI_PLANE_BENDING] = MeasureAlong(axes[0][0], axes[1][1], NULL, FOLD_ROW(KIRI_PLANE_BENDING)) - turned;
-    strain[KIRI_TWIST] = MeasureAlong(axes[0][2], axes[1][1], NULL, FOLD_ROW(KIRI_TWIST));
-    strain[KIRI_BENDING] = MeasureHinge(link, (const kiriVec3(*)[3])axes, FOLD_ROW(KIRI_BENDING)) - link->rest;
-#undef FOLD_ROW
+    strain[KIRI_STRETCH] = MeasureAlong(axes[0][0], b.gap, &b, ROW_OF(rows, KIRI_STRETCH));
+    strain[KIRI_SHEAR] = MeasureAlong(axes[0][1], b.gap, &b, ROW_OF(rows, KIRI_SHEAR));
+    strain[KIRI_NORMAL_GAP] = MeasureAlong(axes[0][2], b.gap, &b, ROW_OF(rows, KIRI_NORMAL_GAP));
+    strain[KIRI_PLANE_BENDING] = MeasureAlong(axes[0][0], axes[1][1], NULL, ROW_OF(rows, KIRI_PLANE_BENDING)) - turned;
+    strain[KIRI_TWIST] = MeasureAlong(axes[0][2], axes[1][1], NULL, ROW_OF(rows, KIRI_TWIST));
+    strain[KIRI_BENDING] = MeasureHinge(link, (const kiriVec3(*)[3])axes, ROW_OF(rows, KIRI_BENDING)) - link->rest;
     for (int s = KIRI_FOLD; s < KIRI_STRAINS; ++s) {
         strain[s] = 0.0;
         if (rows != NULL) {
@@ -587,10 +586,9 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
     double lever = LeverOf(link, frames);
-    MeasureStretch(lever, BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
-                   rows != NULL ? &rows[KIRI_STRETCH] : NULL);
+    MeasureStretch(lever, BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH], ROW_OF(rows, KIRI_STRETCH));
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
-                rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
+                ROW_OF(rows, KIRI_NORMAL_STOP));
     strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m.gap, axes.d);
     strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
     strain[KIRI_PLANE_BENDING] = -2.0 * axes.sine - turned * axes.cosine;
@@ -631,10 +629,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
         byBending = rows[KIRI_BENDING];
     }
     if (curl.gain > 0.0) {
-        TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
+        TakeCurl(&curl, &strain[KIRI_BENDING], ROW_OF(rows, KIRI_BENDING));
     }
     FadeStrains(&axes, bending, &byBending, strain, rows);
-    MeasureSlide(&axes, poses, &b, &strain[KIRI_FOLD_SLIDE], rows != NULL ? &rows[KIRI_FOLD_SLIDE] : NULL);
+    MeasureSlide(&axes, poses, &b, &strain[KIRI_FOLD_SLIDE], ROW_OF(rows, KIRI_FOLD_SLIDE));
 }
 
 double kiriStrain_Damping(const double strain[KIRI_STRAINS])
@@ -1132,12 +1130,10 @@ void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, cons
     FrameDifference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
     FrameDifference side = TakeDifference(0.0, link->tangent, link->tangent, poses);
     MeasureInPlane(&b, &mean, strain + KIRI_AFFINE_GAP, rows);
-    MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING,
-                   rows != NULL ? rows + KIRI_AFFINE_PLANE_BENDING : NULL);
-    MeasureBending(&curl, poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
+    MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING, ROW_OF(rows, KIRI_AFFINE_PLANE_BENDING));
+    MeasureBending(&curl, poses, strain + KIRI_AFFINE_BENDING, ROW_OF(rows, KIRI_AFFINE_BENDING));
     MeasureTwist(link, poses, strain + KIRI_AFFINE_TWIST, rows != NULL ? rows[KIRI_AFFINE_TWIST] : NULL);
-    MeasureNormalGap(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
-                     rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
+    MeasureNormalGap(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP, ROW_OF(rows, KIRI_AFFINE_NORMAL_GAP));
 }
 
 void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS])
