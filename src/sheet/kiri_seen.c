@@ -257,7 +257,7 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
     seen->exactPoints.count = sheet->points.count;
 }
 
-static void HideTriangles(kiriSheetData* sheet)
+void kiriView_HideTriangles(kiriSheetData* sheet)
 {
     KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
         int32_t piece = kiriPiece_OfTriangle(sheet, t);
@@ -271,7 +271,7 @@ void kiriView_HideGone(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
     kiriSurface_NeedNormals(surface); /* hidden vertices keep normals until the next tick */
-    HideTriangles(sheet);
+    kiriView_HideTriangles(sheet);
     surface->isWritten = surface->isSteady = false;
     sheet->mesh.revision += 1;
     surface->revision = sheet->mesh.revision;
@@ -297,7 +297,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
     if (kiriPieces_AnyGone(sheet)) {
-        HideTriangles(sheet); /* a cut may have split triangles of a destroyed piece */
+        kiriView_HideTriangles(sheet); /* a cut may have split triangles of a destroyed piece */
     }
     sheet->seen.isElsewhere = true;
 }

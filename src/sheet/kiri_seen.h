@@ -66,7 +66,9 @@ void kiriView_WriteTopology(kiriSheetData* sheet);
 /* Writes the normals of new vertices in a tick that does not write positions. */
 void kiriView_ShowNewborn(kiriSheetData* sheet);
 
-/* Hides destroyed pieces. The index array that the host may hold was replaced before. */
+/* HideTriangles hides the triangles of destroyed pieces. HideGone hides the pieces: the index array that the host may hold
+   was replaced before. */
+void kiriView_HideTriangles(kiriSheetData* sheet);
 void kiriView_HideGone(kiriSheetData* sheet);
 
 /* TakeJump turns the change by the commits of a tick into fading offsets, so that nothing visibly jumps. Call it after

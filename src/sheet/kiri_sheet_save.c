@@ -287,18 +287,30 @@ KIRI_TABLE(StrainWatchTable, kiriStrainWatch, {
     KIRI_WITHIN(0, 2, rounds),
 })
 
-/* Counts come first: a load checks indices against them as it reads. */
+static void CountItems(const kiriSheetData* sheet, int64_t count[KIRI_OF_COUNT])
+{
+    count[KIRI_OF_TRIANGLES] = sheet->mesh.triangles.count;
+    count[KIRI_OF_HALF_EDGES] = 3 * count[KIRI_OF_TRIANGLES];
+    count[KIRI_OF_VERTICES] = sheet->mesh.vertices.count;
+    count[KIRI_OF_FRAMES] = sheet->frames.count;
+    count[KIRI_OF_PIECES] = sheet->layout.pieces.count;
+    count[KIRI_OF_PINS] = sheet->pins.count;
+    count[KIRI_OF_POINTS] = sheet->points.count;
+}
+
+/* Counts come first: a load checks indices against them as it reads. Pins and points may be missing. */
 static void MoveCounts(kiriArchive* archive, void* object)
 {
-    const kiriSheetData* sheet = object;
     int64_t* count = archive->count;
-    count[KIRI_OF_TRIANGLES] = kiriArchive_Count(archive, sheet->mesh.triangles.count, 1, KIRI_MOST_TRIANGLES);
-    count[KIRI_OF_HALF_EDGES] = 3 * count[KIRI_OF_TRIANGLES];
-    count[KIRI_OF_VERTICES] = kiriArchive_Count(archive, sheet->mesh.vertices.count, 1, INT32_MAX);
-    count[KIRI_OF_FRAMES] = kiriArchive_Count(archive, sheet->frames.count, 1, INT32_MAX);
-    count[KIRI_OF_PIECES] = kiriArchive_Count(archive, sheet->layout.pieces.count, 1, INT32_MAX);
-    count[KIRI_OF_PINS] = kiriArchive_Count(archive, sheet->pins.count, 0, INT32_MAX);
-    count[KIRI_OF_POINTS] = kiriArchive_Count(archive, sheet->points.count, 0, INT32_MAX);
+    CountItems(object, count);
+    KIRI_TIMES(k, KIRI_OF_COUNT) {
+        if (k == KIRI_OF_HALF_EDGES) {
+            count[k] = 3 * count[KIRI_OF_TRIANGLES];
+        } else {
+            count[k] = kiriArchive_Count(archive, count[k], k < KIRI_OF_PINS,
+                                         k == KIRI_OF_TRIANGLES ? KIRI_MOST_TRIANGLES : INT32_MAX);
+        }
+    }
 }
 
 KIRI_TABLE(TearLineTable, kiriTearLine, {
@@ -459,13 +471,9 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
     archive->memory = &sheet->own;
     archive->shown = &sheet->shown;
     kiriArchive_Object(archive, SheetTable, sheet);
-    const int64_t* count = archive->count; /* came first */
-    kiriArchive_Expect(archive, sheet->mesh.triangles.count == count[KIRI_OF_TRIANGLES] &&
-                                    sheet->mesh.vertices.count == count[KIRI_OF_VERTICES] &&
-                                    sheet->frames.count == count[KIRI_OF_FRAMES] &&
-                                    sheet->layout.pieces.count == count[KIRI_OF_PIECES] &&
-                                    sheet->pins.count == count[KIRI_OF_PINS] &&
-                                    sheet->points.count == count[KIRI_OF_POINTS] &&
+    int64_t count[KIRI_OF_COUNT];
+    CountItems(sheet, count);
+    kiriArchive_Expect(archive, memcmp(count, archive->count, sizeof(count)) == 0 &&
                                     sheet->layout.framePiece.count == sheet->frames.count &&
                                     sheet->layout.pinFrame.count == sheet->pins.count && sheet->update != NULL);
     if (isHash) {
@@ -698,11 +706,7 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     }
     KIRI_ASSERT(sheet->update->stage == KIRI_NONE && sheet->vertexSkin.spans.count == sheet->mesh.vertices.count);
     kiriSurface_Derive(&sheet->seen.surface, &sheet->mesh, 0, 0);
-    KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
-        if (sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, t)].isGone) {
-            kiriSurface_HideTriangle(&sheet->seen.surface, t);
-        }
-    }
+    kiriView_HideTriangles(sheet);
 }
 
 /* Copies the items of one array to another with the same count. */
