@@ -66,7 +66,7 @@ TEST(Friction)
     for (bool isFlat : { false, true }) {
         CHECK(!SheetSlides(0.5, law - 1.0, isFlat) && SheetSlides(0.5, law + 1.0, isFlat));
     }
-    CHECK(!CrateSlides(0.2, 10.3) && CrateSlides(0.2, 12.3)); /* the law: 11.3 degrees */
+    CHECK(!CrateSlides(0.9, 41.0) && CrateSlides(0.2, 12.3)); /* the law: 42.0 and 11.3 degrees; at rest it sleeps */
 }
 
 TEST(Motors)

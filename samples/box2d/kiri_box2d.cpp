@@ -250,21 +250,26 @@ kiriResult KiriBox2d::Mirror(const kiriSheet* sheets, int count, float dt)
 }
 
 /* What Box2D did to a body in the last step beside our impulses, as weight and what carries it, it will do again: else
-   a sheet on a crate would feel it fall in each tick, and one below a crate would not. What sleeps under a load
-   stays. */
+   a sheet on a crate would feel it fall in each tick, and one below a crate would not. What sleeps under a load stays.
+   What sleeps on a sheet weighs on it as before: a fixed one would bear the load of the sheet. */
 b2Vec3 KiriBox2d::Predict(b2Body* body, Memory* memory, float dt) const
 {
-    b2Vec3 velocity = VelocityOf(*body), done = velocity - memory->velocity;
+    b2Vec3 velocity = VelocityOf(*body), felt = memory->impulse, done = velocity - memory->velocity;
     float mass = MassOf(*body), inertia = InertiaOf(*body);
-    memory->isCarried = memory->isKnown && !body->IsAwake() && Length(memory->impulse) > 0.0f;
-    if (mass <= 0.0f || memory->isCarried) {
+    b2Vec2 weight = dt * body->GetGravityScale() * bodies->GetGravity();
+    bool sleeps = memory->isKnown && !body->IsAwake(), isCarried = b2Dot(weight, b2Vec2(felt.x, felt.y)) < 0.0f;
+    memory->isFixed = sleeps && !isCarried && Length(felt) > 0.0f;
+    if (mass <= 0.0f || memory->isFixed) {
         return velocity;
     }
-    b2Vec2 weight = (body->IsAwake() ? dt * body->GetGravityScale() : 0.0f) * bodies->GetGravity();
+    float turn = inertia > 0.0f ? 1.0f / inertia : 0.0f;
+    if (sleeps) {
+        return velocity - b2Vec3(felt.x / mass, felt.y / mass, turn * felt.z);
+    }
     done = memory->isKnown ? done : b2Vec3(weight.x, weight.y, 0.0f);
-    float most = weight.Length() + 2.0f / mass * Length(memory->impulse);
-    float turn = inertia > 0.0f ? 2.0f / inertia * b2Abs(memory->impulse.z) : 0.0f;
+    float most = weight.Length() + 2.0f / mass * Length(felt);
     float share = std::min(1.0f, most / std::max(Length(done), b2_epsilon));
+    turn *= 2.0f * b2Abs(felt.z);
     return velocity + b2Vec3(share * done.x, share * done.y, b2Clamp(done.z, -turn, turn));
 }
 
@@ -276,7 +281,7 @@ void KiriBox2d::Move(const Part& part, float dt)
     b2Vec3 motion = Predict(body, &memory, dt);
     b2Vec2 velocity = b2Vec2(motion.x, motion.y) + b2Cross(motion.z, place - body->GetWorldCenter());
     b2Vec2 belt = def.surfaceVelocity != nullptr ? def.surfaceVelocity(*part.fixture, def.user) : b2Vec2_zero;
-    float inertia = metres * metres * InertiaOf(*body), mass = memory.isCarried ? 0.0f : MassOf(*body);
+    float inertia = metres * metres * InertiaOf(*body), mass = memory.isFixed ? 0.0f : MassOf(*body);
     /* A body turns in its plane: out of it it is a million times as heavy. */
     float position[3], rotation[9] = { 0.0f }, speed[3], turning[3] = { 0.0f }, surface[3];
     float tensor[6] = { 1e6f * inertia, 1e6f * inertia, 1e6f * inertia, 0.0f, 0.0f, 0.0f };
@@ -341,7 +346,7 @@ KiriBox2dSave KiriBox2d::Save() const
     for (const auto& entry : memories) {
         const Memory& memory = entry.second;
         save.memories.push_back({ NumberOf(all, entry.first), memory.number, memory.impulse, memory.velocity,
-                                  memory.isKnown, memory.isCarried });
+                                  memory.isKnown, memory.isFixed });
     }
     save.numbers = numbers;
     return save;
@@ -362,7 +367,7 @@ void KiriBox2d::Load(const KiriBox2dSave& save, b2World* box2d)
         memory.impulse = kept.impulse;
         memory.velocity = kept.velocity;
         memory.isKnown = kept.isKnown;
-        memory.isCarried = kept.isCarried;
+        memory.isFixed = kept.isFixed;
     }
     numbers = save.numbers;
     bodies = box2d;

@@ -49,7 +49,7 @@ class KiriBox2dSave
         int body;
         uint32_t number;
         b2Vec3 impulse, velocity;
-        bool isKnown, isCarried;
+        bool isKnown, isFixed;
     };
     std::vector<Part> parts;
     std::vector<Memory> memories;
@@ -93,7 +93,7 @@ class KiriBox2d
         b2Vec3 felt = { 0.0f, 0.0f, 0.0f };      /* in this tick */
         b2Vec3 impulse = { 0.0f, 0.0f, 0.0f };   /* felt in the last tick, or when it fell asleep */
         b2Vec3 velocity = { 0.0f, 0.0f, 0.0f };  /* with which the last step of Box2D began */
-        bool isKnown = false, isCarried = false; /* since the last tick; it sleeps under what touches it */
+        bool isKnown = false, isFixed = false;   /* since the last tick; it sleeps under what touches it */
     };
 
     void Find(kiriSheet sheet, float dt);
