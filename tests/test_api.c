@@ -762,6 +762,13 @@ TEST(LinesBeside)
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ClampLine(w, s.given.sheet, from, to, &pin));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_HingeLine(w, s.given.sheet, from, to, &pin));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_ApplyLineLoad(w, s.given.sheet, from, to, q));
+        const kiriFold fold = { { from[0], from[1] }, { to[0], to[1] }, 1.0f, 0.0f, 0.0f };
+        if (i >= 3) { /* lines that end far outside cross it, and one point is a place of a tear */
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriCreateFoldedSheet(w, s.given.def, &fold, 1, &pin));
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_AddFold(w, s.given.folded, &fold, s.given.count));
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetTearLine(w, s.given.sheet, from, 2, 0.5f));
+            REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_SetTearLine(w, s.given.sheet, from, 1, 0.5f));
+        }
     }
 }
 

@@ -549,7 +549,8 @@ static void AnyPoint(float point[2], uint32_t* seed)
 static void AnyFold(kiriFold* fold, uint32_t* seed)
 {
     AnyPoint(fold->from, seed);
-    AnyPoint(fold->to, seed);
+    fold->to[0] = (float)RandomBetween(seed, 0.0, 1.0);
+    fold->to[1] = (float)RandomBetween(seed, 0.0, 1.0);
     if (Random(seed) % 3 == 0) { /* along a line of the mesh, or of the grid */
         fold->to[0] = fold->from[0] = (float)(Random(seed) % 9) / 8.0f;
     }
@@ -589,6 +590,7 @@ static void CutBothWays(uint32_t seed)
     enum { FOLDS = 6 };
     Host hosts[2];
     int32_t index;
+    kiriResult added[2];
     kiriFold folds[FOLDS];
     const uint32_t first = seed;
     for (int i = 0; i < FOLDS; ++i) {
@@ -620,7 +622,8 @@ static void CutBothWays(uint32_t seed)
         for (int k = 0; k < 2; ++k) {
             Host_Cut(&hosts[k], Host_SheetAt(&hosts[k], 0), line, 2);
             if (t % 3 == 1) {
-                OK(kiriSheet_AddFold(hosts[k].world, Host_SheetAt(&hosts[k], 0), &fold, &index));
+                added[k] = kiriSheet_AddFold(hosts[k].world, Host_SheetAt(&hosts[k], 0), &fold, &index);
+                assert_true(added[k] == added[0] && (added[0] == KIRI_OK || added[0] == KIRI_ERROR_ARGUMENT));
             }
             assert_true(Host_Tick(&hosts[k], Dt, 1) >= 0);
             if (t % 3 == 2) {

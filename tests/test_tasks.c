@@ -277,6 +277,10 @@ TEST(HooksComeTogether)
     def.startTask = StartTask;
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);
     assert_null(world);
+    def.startTask = NULL;
+    def.workerCount = 2;
+    assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);
+    def.startTask = StartTask;
     def.finishTask = FinishTask;
     def.workerCount = -1;
     assert_int_equal(kiriCreateWorld(&def, &world), KIRI_ERROR_ARGUMENT);

@@ -518,15 +518,15 @@ type Material struct {
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
-	// Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)
+	// Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored
 	YieldStress float32
 	// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 	Hardening float32
 	// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
 	Slack float32
-	// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
+	// sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0
 	Detail int32
-	// 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
+	// 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0
 	RestCurvature [3]float32
 }
 
@@ -612,10 +612,10 @@ type SheetDef struct {
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
 	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
-	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	// layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 	TouchesSheets int32
 	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
-	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	// layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 	SelfContact int32
 	// for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
 	CollisionPoints int32
@@ -654,10 +654,10 @@ type SheetSettings struct {
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
 	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
-	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	// layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 	TouchesSheets int32
 	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
-	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	// layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 	SelfContact int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
@@ -1719,7 +1719,7 @@ var poolWorldCreateFoldedSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
+// Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
 func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -2549,8 +2549,8 @@ func (s Sheet) Tearing() (Tearing, error) {
 }
 
 // Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
-// more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
-// tearing).
+// more: below 1 tears follow it, above 1 they stop there. The same points replace it. KIRI_ERROR_ARGUMENT: no
+// material.
 func (s Sheet) SetTearLine(restPoints [][2]float32, factor float32) error {
 	if err := s.World.check(); err != nil {
 		return err

@@ -416,15 +416,15 @@ export class Material {
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
-    /** Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
+    /** Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored */
     yieldStress: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening: number;
     /** 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
     slack: number;
-    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
+    /** sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0 */
     detail: number;
-    /** 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
+    /** 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0 */
     restCurvature: number[];
 }
 /** What a host gives as Material: what is left out is 0. */
@@ -441,15 +441,15 @@ export interface MaterialGiven {
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
-    /** Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
+    /** Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored */
     yieldStress?: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening?: number;
     /** 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
     slack?: number;
-    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
+    /** sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0 */
     detail?: number;
-    /** 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
+    /** 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0 */
     restCurvature?: ArrayLike<number>;
 }
 
@@ -552,10 +552,10 @@ export class SheetDef {
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     touchesSheets: boolean;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     selfContact: boolean;
     /** for Sheet.setContacts: spread evenly, at least one in every piece; default 0: none */
     collisionPoints: number;
@@ -632,10 +632,10 @@ export interface SheetDefGiven {
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     touchesSheets?: boolean | number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     selfContact?: boolean | number;
     /** for Sheet.setContacts: spread evenly, at least one in every piece; default 0: none */
     collisionPoints?: number;
@@ -676,10 +676,10 @@ export class SheetSettings {
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     touchesSheets: boolean;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     selfContact: boolean;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
@@ -709,10 +709,10 @@ export interface SheetSettingsGiven {
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     touchesSheets?: boolean | number;
     /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
-     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+     *  1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     selfContact?: boolean | number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
@@ -1368,7 +1368,7 @@ export class World {
      *  rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null:
      *  the defaults. */
     createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
-    /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
+    /** Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does
      *  not. */
@@ -1505,8 +1505,8 @@ export class Sheet {
      *  preset. */
     getTearing(into?: Tearing): Tearing;
     /** Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0
-     *  or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it
-     *  (manual, tearing). */
+     *  or more: below 1 tears follow it, above 1 they stop there. The same points replace it. KIRI_ERROR_ARGUMENT: no
+     *  material. */
     setTearLine(restPoints: ArrayLike<number>, factor: number): ResultCode;
     /** Writes up to `capacity` ids of the sheet's frames; *count is how many there are. */
     getFrames(): Frame[];

@@ -1009,7 +1009,7 @@ function Sheet:setSettings(settings)
     return result == 1
 end
 
---- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
+--- Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
 function World:createFoldedSheet(def, folds, count)
     local world = self
     folds, count = rows_of(folds, count, "kiriFold", 1)
@@ -1488,8 +1488,8 @@ function Sheet:getTearing(tearing)
 end
 
 --- Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
---- more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
---- tearing).
+--- more: below 1 tears follow it, above 1 they stop there. The same points replace it. KIRI_ERROR_ARGUMENT: no
+--- material.
 function Sheet:setTearLine(restPoints, factor, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)

@@ -105,7 +105,7 @@ typedef struct kiriWorldDef {
     kiriClockFn* clock;         /* null: the profile has counts, and no times */
     kiriStartTaskFn* startTask; /* null: a tick runs in the calling thread alone. Set both or none. */
     kiriFinishTaskFn* finishTask;
-    int32_t workerCount;  /* threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks */
+    int32_t workerCount;  /* threads for a task, the caller included, 0 to 1024; above 1 with startTask. Default 0 */
     void* user;           /* passed to the functions above */
     kiriRecordFn* record; /* receives the recording of the world, see kiriWorld_Replay; null: no recording */
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
@@ -273,11 +273,11 @@ typedef struct kiriMaterial {
     float density;       /* kg/m^3, above 0 */
     float airDamping;    /* 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
-    float yieldStress; /* Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding) */
+    float yieldStress; /* Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     float slack;    /* 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
-    int32_t detail; /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0 */
-    float restCurvature[3]; /* 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0 */
+    int32_t detail; /* sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0 */
+    float restCurvature[3]; /* 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0 */
 } kiriMaterial;
 
 /* Materials to start from; src/world/kiri_api_world.c has the sources. From SILK on: measured cloths (manual, sheets) */
@@ -367,7 +367,7 @@ typedef struct kiriSheetDef {
     float contactThickness; /* m between sheets, half to obstacles. 0: the material's, at least a 20th of a square */
     uint32_t groups;        /* obstacles and sheets touch if they share a set bit. Default: all */
     /* touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
-       layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+       layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0. */
     int32_t touchesSheets, selfContact;
     int32_t collisionPoints; /* for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
@@ -424,7 +424,7 @@ typedef struct kiriFold {
     float yieldMoment;    /* N m per metre: it bends for good beyond, with a yieldStress. 0: no limit */
 } kiriFold;
 
-/* Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS. */
+/* Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material. */
 KIRI_API kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds,
                                           int32_t count, kiriSheet* sheet);
 
@@ -679,7 +679,7 @@ KIRI_API kiriResult kiriSheet_SetTearing(kiriWorld* world, kiriSheet sheet, cons
 KIRI_API kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTearing* tearing);
 
 /* Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or more:
-   below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual, tearing). */
+   below 1 tears follow it, above 1 they stop there. The same points replace it. KIRI_ERROR_ARGUMENT: no material. */
 KIRI_API kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count,
                                           float factor);
 

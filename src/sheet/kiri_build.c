@@ -368,8 +368,12 @@ kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* 
                           fold->restAngle,
                           fold->yieldMoment,
                           0 };
-    if (!isInside || kiriLattice_IsSame(line.from, line.to)) {
-        KIRI_SAY(fault, "fold %lld is a point, or far from the sheet", (long long)mesh->folds.count);
+    isInside = isInside && !kiriLattice_IsSame(line.from, line.to);
+    if (isInside && !kiriLine_Trace(&sheet->line, sheet->memory, mesh, line.from, line.to)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    if (!isInside || sheet->line.parts.count == 0) {
+        KIRI_SAY(fault, "fold %lld is a point, or meets no material", (long long)mesh->folds.count);
         return KIRI_ERROR_ARGUMENT;
     }
     return kiriArray_Push(sheet->memory, &mesh->folds, line) ? KIRI_OK : KIRI_ERROR_MEMORY;

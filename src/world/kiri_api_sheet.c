@@ -790,13 +790,34 @@ kiriResult kiriSheet_GetTearing(const kiriWorld* world, kiriSheet sheet, kiriTea
     return KIRI_OK;
 }
 
+/* Finds whether a line, or a point, meets material. Returns false on out of memory. */
+static bool MeetsMaterial(kiriSheetData* sheet, const float a[2], const float b[2], bool* meets)
+{
+    kiriVec2 from = kiriSheet_ToLocal(sheet, a), to = kiriSheet_ToLocal(sheet, b);
+    kiriPointPlace place;
+    bool isInside = kiriCut_Clip(&sheet->mesh, &from, &to), ok = true;
+    kiriLatticePoint start = kiriMesh_Snap(&sheet->mesh, from), end = kiriMesh_Snap(&sheet->mesh, to);
+    if (isInside && kiriLattice_IsSame(start, end)) {
+        *meets = kiriPoint_Find(sheet, start, &place);
+    } else if (isInside) {
+        ok = kiriLine_Trace(&sheet->line, sheet->memory, &sheet->mesh, start, end);
+        *meets = ok && sheet->line.parts.count > 0;
+    }
+    return ok;
+}
+
 kiriResult kiriSheet_SetTearLine(kiriWorld* world, kiriSheet sheet, const float* restPoints, int32_t count,
                                  float factor)
 {
     KIRI_CHANGES(Sheet_SetTearLine, &sheet, restPoints, &count, &factor);
     kiriSheetData* data = call->sheet;
     const int32_t known = data->tearLines.count;
-    KIRI_REQUIRE(kiriArray_ReserveMore(data->memory, &data->tearLines, count), KIRI_ERROR_MEMORY, NULL);
+    bool ok = true, meets = false;
+    for (int32_t k = kiriMin(1, count - 1); ok && !meets && k < count; ++k) {
+        ok = MeetsMaterial(data, &restPoints[2 * (int64_t)kiriMax(k - 1, 0)], &restPoints[2 * (int64_t)k], &meets);
+    }
+    KIRI_CHECK(meets || !ok, "the line meets no material");
+    KIRI_REQUIRE(ok && kiriArray_ReserveMore(data->memory, &data->tearLines, count), KIRI_ERROR_MEMORY, NULL);
     KIRI_FROM_TO(k, kiriMin(1, count - 1), count) {
         const float* from = &restPoints[2 * (int64_t)kiriMax(k - 1, 0)];
         kiriVec2 to = kiriSheet_ToLocal(data, &restPoints[2 * (int64_t)k]);

@@ -218,6 +218,9 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
         return RefuseWorld(def, KIRI_ERROR_ARGUMENT,
                            "only one of alloc and free is null, or only one of startTask and finishTask");
     }
+    if (def->workerCount > 1 && def->startTask == NULL) {
+        return RefuseWorld(def, KIRI_ERROR_ARGUMENT, "workerCount is above 1, and startTask is null");
+    }
     if (!kiriExact_IsModePlain()) {
         return RefuseWorld(def, KIRI_ERROR_BUILD,
                            "this thread flushes small floats to zero (FTZ, DAZ) or does not round to nearest; set the "

@@ -673,7 +673,7 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.</summary>
+        /// <summary>Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.</summary>
         public Sheet CreateFoldedSheet(float[] restPositions, int[] indices, SheetDef @def, Fold[] folds, float[] framePoints = null, int count = -1)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -1233,8 +1233,8 @@ namespace Kiri
         }
 
         /// <summary>Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a
-        /// factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again
-        /// replace it (manual, tearing).</summary>
+        /// factor, 0 or more: below 1 tears follow it, above 1 they stop there. The same points replace it.
+        /// KIRI_ERROR_ARGUMENT: no material.</summary>
         public void SetTearLine(float[] restPoints, float factor, int count = -1)
         {
             if (count < 0) count = restPoints.Length / 2;

@@ -582,7 +582,7 @@ namespace Kiri
         /// <summary>null: a tick runs in the calling thread alone. Set both or none.</summary>
         public IntPtr StartTask;
         public IntPtr FinishTask;
-        /// <summary>threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks</summary>
+        /// <summary>threads for a task, the caller included, 0 to 1024; above 1 with startTask. Default 0</summary>
         public int WorkerCount;
         /// <summary>passed to the functions above</summary>
         public void* User;
@@ -706,15 +706,15 @@ namespace Kiri
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
-        /// <summary>Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)</summary>
+        /// <summary>Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored</summary>
         public float YieldStress;
         /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
         public float Hardening;
         /// <summary>0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)</summary>
         public float Slack;
-        /// <summary>sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0</summary>
+        /// <summary>sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0</summary>
         public int Detail;
-        /// <summary>1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0</summary>
+        /// <summary>1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0</summary>
         public Float3 RestCurvature;
     }
 
@@ -809,12 +809,10 @@ namespace Kiri
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
-        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
-        /// Default 0.</summary>
+        /// selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
-        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
-        /// Default 0.</summary>
+        /// selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.</summary>
         public Flag SelfContact;
         /// <summary>for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
@@ -866,12 +864,10 @@ namespace Kiri
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
-        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
-        /// Default 0.</summary>
+        /// selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
-        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
-        /// Default 0.</summary>
+        /// selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.</summary>
         public Flag SelfContact;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;

@@ -113,7 +113,7 @@ kiri.DRAW_ALL = 2047
 ---@field clock? function # null: the profile has counts, and no times
 ---@field startTask? function # null: a tick runs in the calling thread alone. Set both or none.
 ---@field finishTask? function
----@field workerCount? integer # threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks
+---@field workerCount? integer # threads for a task, the caller included, 0 to 1024; above 1 with startTask. Default 0
 ---@field user? number[]|ffi.cdata* # passed to the functions above
 ---@field record? function # receives the recording of the world, see kiriWorld_Replay; null: no recording
 ---@field recordHashTicks? integer # ticks between state hashes in the recording; one is at its end. 0: none. Default 60
@@ -168,11 +168,11 @@ kiri.DRAW_ALL = 2047
 ---@field density? number # kg/m^3, above 0
 ---@field airDamping? number # 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)
 ---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
----@field yieldStress? number # Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual, folding)
+---@field yieldStress? number # Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 ---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
----@field detail? integer # sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
----@field restCurvature? number[]|ffi.cdata* # 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
+---@field detail? integer # sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0
+---@field restCurvature? number[]|ffi.cdata* # 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0
 
 --- Work against accuracy: uncut strips, squares of paper are off by at most 2 %, 0.8 % and 0.4 % (manual, accuracy).
 ---@class kiri.Quality
@@ -215,8 +215,8 @@ kiri.DRAW_ALL = 2047
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 ---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
----@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
----@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
+---@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 ---@field collisionPoints? integer # for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
@@ -237,8 +237,8 @@ kiri.DRAW_ALL = 2047
 ---@field friction? number # of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 ---@field contactThickness? number # m between sheets, half to obstacles. 0: the material's, at least a 20th of a square
 ---@field groups? integer # obstacles and sheets touch if they share a set bit. Default: all
----@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
----@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+---@field touchesSheets? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
+---@field selfContact? boolean|integer # touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual: contact. Default 0.
 ---@field iterations? integer # Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 ---@field sleepSpeed? number # m/s: a piece slower for half a second sleeps (manual, budget). Default 0.001; 0: never
 ---@field skinning? integer # KIRI_SKINNING_..., default KIRI_SKINNING_SMOOTH
@@ -785,7 +785,7 @@ function Sheet:getSettings(settings) end
 ---@return boolean # work is left for later ticks
 function Sheet:setSettings(settings) end
 
---- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
+--- Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
 ---@param def? kiri.SheetDef
 ---@param folds kiri.Fold[]|ffi.cdata*
 ---@param count? integer
@@ -1117,8 +1117,8 @@ function Sheet:setTearing(tearing) end
 function Sheet:getTearing(tearing) end
 
 --- Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a factor, 0 or
---- more: below 1 tears follow it from lips on, above 1 they stop there. The same points again replace it (manual,
---- tearing).
+--- more: below 1 tears follow it, above 1 they stop there. The same points replace it. KIRI_ERROR_ARGUMENT: no
+--- material.
 ---@param restPoints number[]|ffi.cdata*
 ---@param factor number
 ---@param count? integer

@@ -179,7 +179,7 @@ class World:
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
     def create_folded_sheet(self, folds: Numbers, **fields: Unpack[SheetDef]) -> kiri.Sheet:
-        """Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS."""
+        """Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateFoldedSheet', 'kiriSheet', structure, *core.rows('kiriFold', folds, 1)))
@@ -395,8 +395,8 @@ class Sheet:
 
     def set_tear_line(self, rest_points: Numbers, factor: float) -> int:
         """Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point: there) by a
-        factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop there. The same points again
-        replace it (manual, tearing).
+        factor, 0 or more: below 1 tears follow it, above 1 they stop there. The same points replace it.
+        KIRI_ERROR_ARGUMENT: no material.
         """
         return self.world.call('kiriSheet_SetTearLine', self.id, *core.rows('float', rest_points, 2), factor)
 

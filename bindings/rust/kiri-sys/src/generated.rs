@@ -262,7 +262,7 @@ pub struct kiriWorldDef {
     /// null: a tick runs in the calling thread alone. Set both or none.
     pub startTask: kiriStartTaskFn,
     pub finishTask: kiriFinishTaskFn,
-    /// threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks
+    /// threads for a task, the caller included, 0 to 1024; above 1 with startTask. Default 0
     pub workerCount: i32,
     /// passed to the functions above
     pub user: *mut c_void,
@@ -378,16 +378,15 @@ pub struct kiriMaterial {
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
-    /// Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a kiriFold (manual,
-    /// folding)
+    /// Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored
     pub yieldStress: f32,
     /// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
     pub hardening: f32,
     /// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
     pub slack: f32,
-    /// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cloths 2, others 0
+    /// sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0
     pub detail: i32,
-    /// 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
+    /// 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As yieldStress. Presets: 0
     pub restCurvature: [f32; 3],
 }
 
@@ -491,12 +490,12 @@ pub struct kiriSheetDef {
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
-    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
-    /// and limits (contact). Default 0.
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual:
+    /// contact. Default 0.
     pub touchesSheets: i32,
     /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
-    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
-    /// and limits (contact). Default 0.
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual:
+    /// contact. Default 0.
     pub selfContact: i32,
     /// for kiriSheet_SetContacts: spread evenly, at least one in every piece; default 0: none
     pub collisionPoints: i32,
@@ -537,12 +536,12 @@ pub struct kiriSheetSettings {
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
-    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
-    /// and limits (contact). Default 0.
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual:
+    /// contact. Default 0.
     pub touchesSheets: i32,
     /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
-    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
-    /// and limits (contact). Default 0.
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Ignored if planar. Manual:
+    /// contact. Default 0.
     pub selfContact: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
@@ -1166,8 +1165,8 @@ unsafe extern "C" {
     /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
     /// Motion, stiffness of pins and frames stay.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
-    /// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: the model is not
-    /// KIRI_MODEL_LINKS.
+    /// Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets
+    /// no material.
     pub fn kiriCreateFoldedSheet(world: *mut kiriWorld, def: *const kiriSheetDef, folds: *const kiriFold, count: i32, sheet: *mut kiriSheet) -> kiriResult;
     /// Adds a fold; its index is the count of folds before. The next ticks make it, on the budget
     /// of cuts, until a KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors
@@ -1342,8 +1341,8 @@ unsafe extern "C" {
     /// other than KIRI_MODEL_LINKS, another preset.
     pub fn kiriSheet_GetTearing(world: *const kiriWorld, sheet: kiriSheet, tearing: *mut kiriTearing) -> kiriResult;
     /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
-    /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
-    /// there. The same points again replace it (manual, tearing).
+    /// there) by a factor, 0 or more: below 1 tears follow it, above 1 they stop there. The same
+    /// points replace it. KIRI_ERROR_ARGUMENT: no material.
     pub fn kiriSheet_SetTearLine(world: *mut kiriWorld, sheet: kiriSheet, restPoints: *const f32, count: i32, factor: f32) -> kiriResult;
     /// A blade in world space: a knife, a mouse, a finger. It remembers where it is in the material
     /// of each layer, and cuts on from there. Move it once a tick while it is in a sheet. Each

@@ -796,16 +796,15 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
-    /// Pa, 0 (elastic) or more: bends beyond it stay, but sharp dents need a [`Fold`] (manual,
-    /// folding)
+    /// Pa, 0 (elastic) or more: bends beyond it stay. [`Model::Links`], not planar: else ignored
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
     /// 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
     pub slack: f32,
-    /// sweeps of the detail layer a tick, 0 (off) to 16, see [`Mesh`]. Presets: cloths 2, others 0
+    /// sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0
     pub detail: i32,
-    /// 1/m, up to 1e6, without forces: along x, y, twist; above 0: rises to the front. Presets: 0
+    /// 1/m, to 1e6: along x, y, twist; above 0: rises to the front. As `yield_stress`. Presets: 0
     pub rest_curvature: [f32; 3],
 }
 
@@ -981,12 +980,12 @@ pub struct SheetDef<'a> {
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
-    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
-    /// Manual: rules and limits (contact). Default 0.
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Ignored if planar.
+    /// Manual: contact. Default 0.
     pub touches_sheets: bool,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
-    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
-    /// Manual: rules and limits (contact). Default 0.
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Ignored if planar.
+    /// Manual: contact. Default 0.
     pub self_contact: bool,
     /// for [`Sheet::set_contacts`]: spread evenly, at least one in every piece; default 0: none
     pub collision_points: i32,
@@ -1127,12 +1126,12 @@ pub struct SheetSettings {
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
-    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
-    /// Manual: rules and limits (contact). Default 0.
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Ignored if planar.
+    /// Manual: contact. Default 0.
     pub touches_sheets: bool,
     /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
-    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
-    /// Manual: rules and limits (contact). Default 0.
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Ignored if planar.
+    /// Manual: contact. Default 0.
     pub self_contact: bool,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
@@ -2637,8 +2636,8 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Adds a sheet with 1 to 65536 folds, copied in order. [`ResultCode::ErrorArgument`]: the
-    /// model is not [`Model::Links`].
+    /// Adds a sheet with 1 to 65536 folds. [`ResultCode::ErrorArgument`]: not [`Model::Links`]; a
+    /// fold meets no material.
     pub fn create_folded_sheet(&mut self, def: &SheetDef<'_>, folds: &[Fold]) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3101,8 +3100,8 @@ impl Sheet {
     }
 
     /// Multiplies the toughness along a polyline in the rest plane (2 floats a point; one point:
-    /// there) by a factor, 0 or more: below 1 tears follow it from lips on, above 1 they stop
-    /// there. The same points again replace it (manual, tearing).
+    /// there) by a factor, 0 or more: below 1 tears follow it, above 1 they stop there. The same
+    /// points replace it. [`ResultCode::ErrorArgument`]: no material.
     pub fn set_tear_line(self, world: &mut World, rest_points: &[[f32; 2]], factor: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetTearLine(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32, factor) }, world, "Sheet::set_tear_line")?;
