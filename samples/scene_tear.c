@@ -230,7 +230,7 @@ const SceneType stampsScene = {
 
 /* ---- Poster: a hand rips a strip off a wall -------------------------------------------------------------------- */
 
-enum { GLUE_ROWS = 6, GLUE_COLUMNS = 5, RIP = 60, RIP_END = 300 };
+enum { GLUE_ROWS = 6, GLUE_COLUMNS = 5, RIP = 60, RIP_END = 316 };
 
 static const float posterWidth = 0.8f;
 
@@ -275,11 +275,11 @@ const SceneType posterScene = {
     .name = "poster",
     .about = "a hand rips a strip of a poster off a wall",
     .size = 0.3f,
-    .ticks = 320,
+    .ticks = 340,
     .substeps = 2,
     .firstCut = 10,
     .lastCut = 50,
-    .moments = { 60, 110, 160, 210, 270, 320 },
+    .moments = { 60, 110, 160, 210, 270, 340 },
     .camera = { { 1.5f, -3.6f, 2.0f }, { 0.1f, -0.2f, 1.08f }, 32.0f },
     .look = { { 1.0f, 1.0f, 1.0f }, { 0.93f, 0.92f, 0.90f }, { 0.75f, 0.73f, 0.70f }, 1.0f },
     .print = PrintPoster,
