@@ -518,7 +518,7 @@ type Material struct {
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
-	// Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored
+	// Pa, 0 or more: bends beyond it stay, but sharp dents need a kiriFold. KIRI_MODEL_LINKS, not planar
 	YieldStress float32
 	// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 	Hardening float32

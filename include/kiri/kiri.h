@@ -273,7 +273,7 @@ typedef struct kiriMaterial {
     float density;       /* kg/m^3, above 0 */
     float airDamping;    /* 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
-    float yieldStress; /* Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored */
+    float yieldStress; /* Pa, 0 or more: bends beyond it stay, but sharp dents need a kiriFold. KIRI_MODEL_LINKS, not planar */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     float slack;    /* 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets) */
     int32_t detail; /* sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0 */

@@ -168,7 +168,7 @@ kiri.DRAW_ALL = 2047
 ---@field density? number # kg/m^3, above 0
 ---@field airDamping? number # 1/s, 0 or more: velocities fade to the air's, as exp(-airDamping t) (manual, sheets)
 ---@field flexDamping? number # s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
----@field yieldStress? number # Pa, 0 (elastic) or more: bends beyond it stay. KIRI_MODEL_LINKS, not planar: else ignored
+---@field yieldStress? number # Pa, 0 or more: bends beyond it stay, but sharp dents need a kiriFold. KIRI_MODEL_LINKS, not planar
 ---@field hardening? number # modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 ---@field slack? number # 0 to below 1: part of the stiffness against compression that wrinkles take (manual, sheets)
 ---@field detail? integer # sweeps of the detail layer a tick, 0 (off, as if planar) to 16. Presets: cloths 2, others 0

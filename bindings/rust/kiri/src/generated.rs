@@ -796,7 +796,8 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
-    /// Pa, 0 (elastic) or more: bends beyond it stay. [`Model::Links`], not planar: else ignored
+    /// Pa, 0 or more: bends beyond it stay, but sharp dents need a [`Fold`]. [`Model::Links`], not
+    /// planar
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
