@@ -96,7 +96,7 @@ end
 
 function tests.errors_say_what_and_where()
     local world = kiri.World()
-    local made = fails("test_lua.lua:%d+: World:createRectangle: width or height is not above 0, .* %(ERROR_ARGUMENT%)$", function()
+    local made = fails("test_lua.lua:%d+: World:createRectangle: width is %-1, not above 0 %(ERROR_ARGUMENT%)$", function()
         return world:createRectangle(-1, 1, 1, 1), 1
     end)
     equal(made.result, kiri.ERROR_ARGUMENT)

@@ -147,7 +147,7 @@ func TestErrorsSayWhat(t *testing.T) {
 	if !errors.Is(err, ErrArgument) || !errors.As(err, &failed) || failed.Line == "" || failed.Call != "World.CreateRectangle" {
 		t.Error(err)
 	}
-	if _, err = world.Tick(-1, 1); err == nil || err.Error() != "World.Tick: dt is not within 1e-6 and 10 s (ErrArgument)" {
+	if _, err = world.Tick(-1, 1); err == nil || err.Error() != "World.Tick: dt is -1, not within 1e-6 and 10 (ErrArgument)" {
 		t.Error(err)
 	}
 	def := DefaultPinDef()
