@@ -1719,7 +1719,8 @@ var poolWorldCreateFoldedSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
+// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no material at
+// one.
 func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {

@@ -1368,7 +1368,8 @@ export class World {
      *  rows 0: as many as fit the grid, 3 for 2 of its squares; at most 4096. The mesh of def is not read; def null:
      *  the defaults. */
     createRectangle(width: number, height: number, columns?: number, rows?: number, def?: SheetDefGiven | null): Sheet;
-    /** Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material. */
+    /** Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no material
+     *  at one. */
     createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet 0: none), up to maxDistance; hit->triangle -1: it does
      *  not. */

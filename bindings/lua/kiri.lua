@@ -1009,7 +1009,8 @@ function Sheet:setSettings(settings)
     return result == 1
 end
 
---- Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
+--- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no material at
+--- one.
 function World:createFoldedSheet(def, folds, count)
     local world = self
     folds, count = rows_of(folds, count, "kiriFold", 1)

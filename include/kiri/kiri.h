@@ -424,7 +424,7 @@ typedef struct kiriFold {
     float yieldMoment;    /* N m per metre: it bends for good beyond, with a yieldStress. 0: no limit */
 } kiriFold;
 
-/* Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material. */
+/* Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no material at one. */
 KIRI_API kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds,
                                           int32_t count, kiriSheet* sheet);
 

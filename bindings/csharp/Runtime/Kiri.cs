@@ -673,7 +673,8 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.</summary>
+        /// <summary>Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no
+        /// material at one.</summary>
         public Sheet CreateFoldedSheet(float[] restPositions, int[] indices, SheetDef @def, Fold[] folds, float[] framePoints = null, int count = -1)
         {
             @def.vertexCount = restPositions.Length / 2;

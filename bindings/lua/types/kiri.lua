@@ -785,7 +785,8 @@ function Sheet:getSettings(settings) end
 ---@return boolean # work is left for later ticks
 function Sheet:setSettings(settings) end
 
---- Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material.
+--- Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no material at
+--- one.
 ---@param def? kiri.SheetDef
 ---@param folds kiri.Fold[]|ffi.cdata*
 ---@param count? integer

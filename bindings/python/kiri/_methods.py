@@ -179,7 +179,9 @@ class World:
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
     def create_folded_sheet(self, folds: Numbers, **fields: Unpack[SheetDef]) -> kiri.Sheet:
-        """Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets no material."""
+        """Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS, or no
+        material at one.
+        """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateFoldedSheet', 'kiriSheet', structure, *core.rows('kiriFold', folds, 1)))

@@ -1166,8 +1166,8 @@ unsafe extern "C" {
     /// KIRI_ERROR_DEF: they do not come from kiriSheet_GetSettings. It wakes if one differs.
     /// Motion, stiffness of pins and frames stay.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
-    /// Adds a sheet with 1 to 65536 folds. KIRI_ERROR_ARGUMENT: not KIRI_MODEL_LINKS; a fold meets
-    /// no material.
+    /// Adds a sheet with 1 to 65536 folds, copied in order. KIRI_ERROR_ARGUMENT: not
+    /// KIRI_MODEL_LINKS, or no material at one.
     pub fn kiriCreateFoldedSheet(world: *mut kiriWorld, def: *const kiriSheetDef, folds: *const kiriFold, count: i32, sheet: *mut kiriSheet) -> kiriResult;
     /// Adds a fold; its index is the count of folds before. The next ticks make it, on the budget
     /// of cuts, until a KIRI_EVENT_CUT_FINISHED. It moves to its rest angle within fadeTime. Errors

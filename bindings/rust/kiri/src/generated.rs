@@ -2637,8 +2637,8 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Adds a sheet with 1 to 65536 folds. [`ResultCode::ErrorArgument`]: not [`Model::Links`]; a
-    /// fold meets no material.
+    /// Adds a sheet with 1 to 65536 folds, copied in order. [`ResultCode::ErrorArgument`]: not
+    /// [`Model::Links`], or no material at one.
     pub fn create_folded_sheet(&mut self, def: &SheetDef<'_>, folds: &[Fold]) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
