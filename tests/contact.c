@@ -15,7 +15,7 @@ int Contact_IsAsked(const char* group)
 
 static void Print(const char* name, const char* variant, double value, const char* law, const char* unit, int isMissed)
 {
-    lines += 1;
+    lines += law[0] != '\0';
     marked += isMissed;
     printf("%-28s %-34s %12.5g %18s %-8s %s\n", name, variant, value, law, unit, isMissed ? "MISSED" : "");
     fflush(stdout);
@@ -31,7 +31,7 @@ void Contact_Line(const char* name, const char* variant, double value, double la
 void Contact_Limit(const char* name, const char* variant, double value, double limit, const char* unit)
 {
     char text[64];
-    snprintf(text, sizeof text, "<= %.4g", limit);
+    snprintf(text, sizeof text, limit < HUGE_VAL ? "<= %.4g" : "", limit);
     Print(name, variant, value, text, unit, !(value <= limit));
 }
 
