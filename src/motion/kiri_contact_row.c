@@ -252,6 +252,40 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     }
 }
 
+/* Prepares a contact that may push in this step. all[]: the weights of the row. */
+static void PrepareContact(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* all, int32_t count,
+                           double share, kiriContactStep* step)
+{
+    KIRI_ASSERT(count > 0 && count <= KIRI_CONTACT_MEMBERS);
+    if (!kiriContact_IsMutual(step)) {
+        ChooseMembers(solver, all, count, step);
+    }
+    WeighMembers(system, step);
+    PlacePlane(solver, system, all, count, share, step);
+}
+
+#define FAR_ROUNDING 1e-9 /* relative to the distance from the origin */
+
+/* Finds whether the contact is far at the start of the step. Only one that pushed nothing in the last step may be: all else
+   that it would store is then zero. */
+static void BeginFar(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* all, int32_t count,
+                     kiriContactStep* step)
+{
+    const kiriContactRow* row = step->row;
+    kiriVec3 x = kiriSystem_Blend(system, all, count, solver->start.data), none = { 0.0, 0.0, 0.0 };
+    memcpy(step->members, all, sizeof(kiriContactMember) * (size_t)count);
+    step->memberCount = count;
+    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step));
+    step->plane = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, step->carried));
+    step->above = -DepthAt(step, x) - FAR_ROUNDING * (1.0 + kiriVec3_Length(x));
+    step->isFar = step->above > 0.0 && kiriVec3_Equal(row->force, none);
+    KIRI_TIMES(m, step->memberCount) {
+        kiriVec2 local = kiriVec2_Sub(step->members[m].at, system->frames[step->members[m].frame].center);
+        step->lever = kiriMax(fabs(local.x) + fabs(local.y), step->lever);
+    }
+    solver->touch.hasFar |= step->isFar;
+}
+
 static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kiriIslandBody* member, int32_t k,
                          double share)
 {
@@ -275,11 +309,12 @@ static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kir
         FollowSurface(solver, system, row, all);
         memcpy(step->members, all, sizeof(kiriContactMember) * (size_t)count);
         step->memberCount = step->coupledCount = count;
-    } else {
-        ChooseMembers(solver, all, count, step);
+    } else if (IsSoft(row) && !recoils && !solver->isHeld) {
+        BeginFar(solver, system, all, count, step);
     }
-    WeighMembers(system, step);
-    PlacePlane(solver, system, all, count, share, step);
+    if (!step->isFar) {
+        PrepareContact(solver, system, all, count, share, step);
+    }
     if (recoils && IsSoft(row)) {
         kiriRecoil_Join(solver, step);
     }
@@ -466,16 +501,11 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     double inertia = InertiaOf(solver, step), was = kiriVec3_Dot(row->normal, row->force);
     kiriVec3 predicted = { 0 }, free = predicted;
     KIRI_TIMES(m, step->memberCount) {
-        const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
-        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->pose);
-        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(prediction->pose.x, arm));
-        arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->guess);
-        free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(prediction->guess.x, arm));
+        const kiriPose* guess = &solver->predictions.data[step->members[m].frame].guess;
+        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, guess);
+        free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(guess->x, arm));
     }
-    double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
     double gap = kiriVec3_Dot(row->normal, free) - step->plane;
-    kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
-    slide = kiriVec3_Across(slide, row->normal);
     step->held = kiriVec3_Across(row->force, row->normal);
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
@@ -483,6 +513,14 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
         GuessSoft(solver, step, -gap);
         return;
     }
+    KIRI_TIMES(m, step->memberCount) {
+        const kiriPose* pose = &solver->predictions.data[step->members[m].frame].pose;
+        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, pose);
+        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(pose->x, arm));
+    }
+    double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
+    kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
+    slide = kiriVec3_Across(slide, row->normal);
     step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     double pressing = was > 0.0 ? was : kiriMax(stop, 0.0);
     step->limit = step->isActive ? row->friction * pressing : 0.0;
@@ -495,7 +533,8 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 {
     kiriRecoil_Begin(solver);
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+    kiriSolver_FindNear(solver, system, solver->poses.data);
+    KIRI_EACH_NEAR(contact, solver) {
         GuessState(solver, system, contact);
     }
 }
@@ -535,22 +574,68 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step)
     step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, along));
 }
 
+static void LinearizeContact(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
+{
+    step->point = kiriContact_Point(system, step, solver->poses.data);
+    step->depth = DepthAt(step, step->point);
+    step->slide = SlideAt(step, step->point);
+    if (IsSoft(step->row)) {
+        double share = kiriMax(step->body != NULL ? step->yield->pressed : 0, 1), part = solver->stepping.part;
+        LinearizeSoft(step, solver->search.isFirst);
+        step->give = part * part * share * InverseMass(step, step->row->normal);
+        return;
+    }
+    SetSprings(solver, step);
+    step->sinks = 0.0;
+    step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
+}
+
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
     CountPressed(solver);
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {
-        step->point = kiriContact_Point(system, step, solver->poses.data);
-        step->depth = DepthAt(step, step->point);
-        step->slide = SlideAt(step, step->point);
-        if (IsSoft(step->row)) {
-            double share = kiriMax(step->body != NULL ? step->yield->pressed : 0, 1), part = solver->stepping.part;
-            LinearizeSoft(step, solver->search.isFirst);
-            step->give = part * part * share * InverseMass(step, step->row->normal);
+    KIRI_EACH_NEAR(step, solver) {
+        LinearizeContact(solver, system, step);
+    }
+}
+
+/* Prepares a contact as if it had been near from the start on. It gains no energy so (PlacePlane): its share does not count. */
+static void ComeNear(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
+{
+    kiriContactMember all[KIRI_CONTACT_MEMBERS];
+    KIRI_ASSERT(step->isFar && IsSoft(step->row) && !kiriContact_IsMutual(step));
+    memcpy(all, step->members, sizeof(all));
+    step->isFar = false;
+    PrepareContact(solver, system, all, step->memberCount, 1.0, step);
+    GuessState(solver, system, step);
+    LinearizeContact(solver, system, step);
+}
+
+void kiriSolver_FindNear(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+{
+    const kiriPose* start = solver->start.data;
+    double longest = 0.0, most = 0.0, *turns = solver->turns.data; /* of all frames: squared way, turn */
+    KIRI_TIMES_WHILE(solver->touch.hasFar, f, system->frameCount) {
+        kiriVec3 way = kiriVec3_Sub(poses[f].x, start[f].x), u = kiriVec3_Sub(poses[f].A.u, start[f].A.u);
+        kiriVec3 v = kiriVec3_Sub(poses[f].A.v, start[f].A.v);
+        turns[f] = sqrt(kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v));
+        longest = kiriMax(kiriVec3_Dot(way, way), longest);
+        most = kiriMax(turns[f], most);
+    }
+    KIRI_EACH_WHILE(solver->touch.hasFar, kiriContactStep, step, solver->contacts) {
+        double sinks = 0.0;
+        if (!step->isFar) {
             continue;
         }
-        SetSprings(solver, step);
-        step->sinks = 0.0;
-        step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
+        bool isSure = sqrt(longest) + step->lever * most < step->above;
+        KIRI_TIMES_WHILE(!isSure, m, step->memberCount) {
+            int32_t f = step->members[m].frame;
+            kiriVec3 way = kiriVec3_Sub(poses[f].x, start[f].x);
+            sinks += step->members[m].value * (step->lever * turns[f] - kiriVec3_Dot(step->row->normal, way));
+        }
+        if (!(sinks < step->above)) {
+            ComeNear(solver, system, step);
+        }
+        KIRI_ASSERT(!step->isFar || !(kiriContact_Depth(system, step, poses) > 0.0));
     }
 }
 
@@ -847,7 +932,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mostPush = 0.0; /* N */
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+    KIRI_EACH_NEAR(step, solver) {
         if (!IsSoft(step->row)) {
             TakeForces(step, solver->search.scale);
         } else if (solver->search.scale > 0.0) {
@@ -856,7 +941,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
         mostPush = kiriMax(step->push, mostPush);
     }
     solver->touch.isUnsettled = false;
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+    KIRI_EACH_NEAR(contact, solver) {
         solver->touch.isUnsettled |= Review(solver, system, contact, mostPush);
     }
 }
@@ -885,7 +970,7 @@ static double Yielded(const kiriContactStep* step)
 static bool IsDeep(kiriSolver* solver)
 {
     bool isDeep = false;
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+    KIRI_EACH_NEAR(step, solver) {
         step->solved = step->push;
         double depth = DepthAt(step, step->point) - Yielded(step);
         isDeep |= !kiriContact_IsMutual(step) && depth > MOST_DEPTH + step->row->reach;
@@ -1027,6 +1112,11 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
     if (!IsDeep(solver)) {
         return;
     }
+    KIRI_EACH_WHILE(solver->touch.hasFar, kiriContactStep, step, solver->contacts) {
+        if (step->isFar) {
+            ComeNear(solver, system, step); /* frames are held by themselves, and the point of one may be deep */
+        }
+    }
     memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
     ShareMass(solver);
     TurnBack(solver, system);
@@ -1071,7 +1161,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
     bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
     kiriVec3 asked = { 0 }, given = asked;
     double part = solver->stepping.part;
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+    KIRI_EACH_NEAR(step, solver) {
         if (kiriContact_IsMutual(step)) {
             continue;
         }
@@ -1190,7 +1280,7 @@ static void GivePushes(const kiriSolver* solver, bool isMore)
             yield->most += kiriMax(ofSheet, 0.0);
         }
     }
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+    KIRI_EACH_NEAR(contact, solver) {
         Give(solver, contact, 1.0);
     }
     KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
@@ -1238,8 +1328,10 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
     solver->touch.keepForces *= sum.more;
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriContactRow* row = step->row;
-        row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
-        row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
+        if (!step->isFar) {
+            row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
+            row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
+        }
         row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step));
     }
 }

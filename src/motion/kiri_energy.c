@@ -114,7 +114,7 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
                                    .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+    KIRI_EACH_NEAR(step, solver) {
         step->point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         if (system->mechanics.planar) {
@@ -177,8 +177,8 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
         }
     }
     double lifting = 0.0; /* J */
-    KIRI_EACH_INDEX(k, solver->contacts) {
-        energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k], &lifting);
+    KIRI_EACH_NEAR(step, solver) {
+        energy->gain -= kiriContact_Work(solver, step, &lifting);
     }
     double thrown = 0.5 * OUT_SPEED * OUT_SPEED * solver->momentum.mass;
     energy->gain -= kiriClamp(lifting, 0.0, kiriMax(weight, 0.0) + thrown);

@@ -137,7 +137,7 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
            ReserveElements(s) && kiriArray_Reserve(memory, &s->tracedRows, traced) &&
            kiriArrays_Reserve(memory, s->size * frames, &s->force, &s->move) &&
            kiriArray_Reserve(memory, &s->members, most) && kiriArray_Reserve(memory, &s->rows, rows) &&
-           kiriArray_Reserve(memory, &s->J, rows * s->size) && kiriArray_Reserve(memory, &s->airs, frames);
+           kiriArray_Reserve(memory, &s->J, rows * s->size) && kiriArrays_Reserve(memory, frames, &s->airs, &s->turns);
 }
 
 /* Sorts items by body, and sets the spans at this offset of kiriSolverBody. Items of a body keep their order. */

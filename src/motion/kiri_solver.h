@@ -430,6 +430,10 @@ typedef struct kiriStepEnergy {
    plane push; sticking contacts that exceed the friction limit slip, slipping contacts whose slide reversed stick. */
 typedef struct kiriContactStep {
     kiriContactRow* row;
+    /* A soft contact that no pose of this step has brought to its plane so far: it adds exactly nothing, and has only its row,
+       the members of the row, and `carried`. above, lever: see kiriSolver_FindNear. */
+    bool isFar;
+    double above, lever; /* m: height over the plane at the start; the farthest member from its frame */
     kiriYieldRow* yield; /* of the row, or null */
     kiriYieldRow* body;  /* the same if its unknowns are in the system */
     kiriVec3 arm;        /* m: from the centre of `yield` */
@@ -492,6 +496,7 @@ typedef struct kiriSearch {
 /* The contacts of a body together. */
 typedef struct kiriContactSum {
     bool isNear;       /* some contacts can push */
+    bool hasFar;       /* some contacts were far at the start */
     bool isUnsettled;  /* some contacts need another system */
     bool isHeldUp;     /* frames were moved up to planes after the last system */
     double means;      /* J: allowance of the stored energy beyond its value at the start */
@@ -591,6 +596,7 @@ struct kiriSolver {
     KIRI_ARRAY(kiriFrameData) before, after;
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame */
     KIRI_ARRAY(kiriPose) start, poses, trial; /* one a frame: at the start of the step, current, and tried */
+    kiriReals turns; /* scratch, one a frame: since the start, upper limit of the change of a unit vector in its plane */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
     kiriReals stiffness, loss, startStrain;
     /* Results of the last measurement: strains, which corners read for their links, and derivatives of these strains by
@@ -642,7 +648,7 @@ static inline const kiriAir* kiriSystem_AirOf(const kiriSystem* system, int32_t 
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt);
 
 /* Returns true if contacts touch a point at these poses. */
-bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+bool kiriSolver_AreTouching(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
 
 /* ---- Objective ---- */
 
@@ -712,6 +718,14 @@ static inline bool kiriContact_IsMutual(const kiriContactStep* step)
 /* BeginContacts makes the contacts of the island: planes and points for a step. GuessContacts guesses their initial
    state, after the scheme and the prediction are set. */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* Prepares the far contacts that these poses may bring to their planes. Call it before contacts are used at other poses. */
+void kiriSolver_FindNear(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+
+#define KIRI_EACH_NEAR(step, solver)                                                                                   \
+    KIRI_EACH(kiriContactStep, step, (solver)->contacts)                                                               \
+        if (!(step)->isFar)
+
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* Return the position of the point, blended from the members, and its depth below the plane. */

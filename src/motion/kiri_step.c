@@ -159,9 +159,10 @@ static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
     return false;
 }
 
-bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+bool kiriSolver_AreTouching(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+    kiriSolver_FindNear(solver, system, poses);
+    KIRI_EACH_NEAR(contact, solver) {
         if (kiriContact_Depth(system, contact, poses) > 0.0) {
             return true;
         }
@@ -172,7 +173,7 @@ bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, 
 /* Returns true if a contact pushed in the last step: as a rule it goes on. */
 static bool IsPushed(const kiriSolver* solver)
 {
-    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+    KIRI_EACH_NEAR(contact, solver) {
         const kiriContactRow* row = contact->row;
         if (kiriVec3_Dot(row->force, row->normal) > 0.0) {
             return true;
@@ -316,7 +317,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
         AddEnergy(sum, SpringEnergy(system, &spring, poses), 0.0);
     }
     AddEnergy(sum, kiriStitches_Energy(system, poses), 0.0);
-    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+    KIRI_EACH_NEAR(contact, solver) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
     AddEnergy(sum, 0.0, kiriRecoil_Energy(solver));
@@ -370,6 +371,7 @@ static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* 
 
 kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
+    kiriSolver_FindNear(solver, system, poses);
     kiriStepEnergy sum = InertiaEnergy(solver, system, poses);
     bool isStart = poses == solver->start.data && !solver->isPut, hasStops = !system->mechanics.planar;
     KIRI_TIMES(k, solver->elementCount) {
@@ -452,10 +454,6 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
                     stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
         }
         sum += share * noise;
-    }
-    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
-        kiriVec3 x = contact->start;
-        sum += share * contact->stiffness * kiriVec3_Dot(x, x);
     }
     solver->search.noise = sum + share * kiriStitches_Noise(solver, system);
 }
@@ -856,7 +854,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
         AddSpring(solver, system, &spring);
     }
     kiriStitches_Assemble(solver, system);
-    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+    KIRI_EACH_NEAR(contact, solver) {
         kiriContact_Assemble(solver, system, contact);
     }
     int32_t springs = kiriSystem_HasWind(system) ? SAMPLES * system->frameCount : 0;
