@@ -213,8 +213,19 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
 {
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
     stencil->steps.count = 0;
-    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)steps.end[0] + 1)) {
+    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)steps.end[KIRI_DIAGONAL] + 1)) {
         return false;
+    }
+    if (kiriGrid_IsOpen(grid, cell)) { /* the cells around have the indices of their squares */
+        stencil->steps.count = 9;
+        KIRI_TIMES(k, 9) {
+            int32_t u = k % 3 - 1, v = k / 3 - 1, to = cell + v * grid->mesh->squares.columns + u;
+            stencil->steps.data[k == 4 ? 0 : k + (k < 4)] = (kiriStep){ to, 0, (int8_t)u, (int8_t)v };
+            stencil->steps.count = grid->whole.data[to] ? stencil->steps.count : 0; /* an end of a slit changes no step */
+        }
+        if (stencil->steps.count > 0) {
+            return true;
+        }
     }
     KIRI_NEXT(stencil->steps) = (kiriStep){ cell, 0, 0, 0 };
     KIRI_TIMES(k, steps.end[0]) {
