@@ -555,7 +555,7 @@ endif
 # Ticks spend no time in these: they are compiled for size.
 ifeq ($(config),release)
 $(patsubst %,$(BUILD)/src/%.c.o,$(addprefix world/kiri_,api_sheet api_contact api_world call draw part record state) \
-    $(addprefix sheet/kiri_,build detach sheet_save) mesh/kiri_mesh_build mesh/kiri_mesh_check): private FLAGS += -Os
+    $(addprefix sheet/kiri_,build detach sheet_save) mesh/kiri_mesh_check): private FLAGS += -Os
 endif
 
 $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS) $(TO_LINK)
