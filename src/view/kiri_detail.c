@@ -56,72 +56,62 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if an edge of the list stands for the half-edge. Both lips of an open edge have one. */
-static inline bool IsListed(const kiriMeshData* mesh, const uint32_t* marks, int32_t h)
-{
-    const kiriTriangle* t = &mesh->triangles.data[h / 3];
-    int32_t twin = t->twin[h % 3];
-    bool isOwn = h < twin || kiriMesh_IsBorder(mesh, h);
-    return isOwn && marks[t->vertex[h % 3]] != UINT32_MAX;
-}
-
 #define BORDER 0x80000000u
 
 void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
 {
-    const int32_t last = KIRI_DETAIL_COLORS - 1, halfEdges = 3 * mesh->triangles.count;
     int32_t counts[KIRI_DETAIL_COLORS] = { 0 };
-    /* Scratch in `crease`, which a tick fills later: colors of the edges of each vertex, and the color of each half-edge. */
+    /* Scratch in `crease`, which a tick fills later: the colors of the edges of each vertex, or all bits if it is not listed;
+       the color of each half-edge that stands for an edge of the list. Both lips of an open edge have one. */
     uint32_t* marks = (void*)detail->crease.data;
     uint8_t* colors = (uint8_t*)(marks + mesh->vertices.count);
-    KIRI_ASSERT(mesh->vertices.count + (int64_t)halfEdges / 4 < detail->crease.capacity);
+    KIRI_ASSERT(mesh->vertices.count + 3 * (int64_t)mesh->triangles.count / 4 < detail->crease.capacity);
     memset(marks, 0xFF, sizeof(*marks) * mesh->vertices.count);
     KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
         KIRI_ASSERT_HAS(mesh->vertices, item->vertex);
         marks[item->vertex] = 0;
     }
-    KIRI_TIMES(h, halfEdges) {
-        if (IsListed(mesh, marks, h)) {
-            uint32_t *a = &marks[kiriMesh_Tail(mesh, h)], *b = &marks[kiriMesh_Head(mesh, h)], taken = *a | *b;
-            KIRI_ASSERT(*b != UINT32_MAX);
-            int32_t color = 0;
-            while (color < last && (taken >> color & 1) != 0) {
-                ++color;
+    KIRI_EACH_INDEX(k, mesh->triangles) {
+        const kiriTriangle* t = &mesh->triangles.data[k];
+        KIRI_EACH_CORNER(i) {
+            const int32_t h = 3 * k + i;
+            uint32_t *a = &marks[t->vertex[i]], *b = &marks[t->vertex[(i + 1) % 3]];
+            bool isBorder = kiriMesh_IsBorder(mesh, h);
+            colors[h] = KIRI_DETAIL_COLORS;
+            if (*a != UINT32_MAX && (isBorder || h < t->twin[i])) {
+                KIRI_ASSERT(*b != UINT32_MAX);
+                int32_t color = kiriLowestBit(~(*a | *b)); /* the bit of the last color stays free */
+                uint32_t mark = (color < KIRI_DETAIL_COLORS - 1 ? 1u << color : 0) | (isBorder ? BORDER : 0);
+                *a |= mark;
+                *b |= mark;
+                colors[h] = (uint8_t)color;
+                counts[color] += 1;
             }
-            uint32_t mark = color < last ? 1u << color : 0; /* the last color stays free: marks do not fill up */
-            *a |= mark;
-            *b |= mark;
-            colors[h] = (uint8_t)color;
-            counts[color] += 1;
         }
     }
     detail->colorStart[0] = 0;
-    for (int32_t color = 0; color <= last; ++color) {
+    KIRI_TIMES(color, KIRI_DETAIL_COLORS) {
         detail->colorStart[color + 1] = detail->colorStart[color] + counts[color];
         counts[color] = detail->colorStart[color];
     }
-    detail->edges.count = detail->colorStart[last + 1];
+    detail->edges.count = detail->colorStart[KIRI_DETAIL_COLORS];
     KIRI_ASSERT(detail->edges.count <= detail->edges.capacity);
-    KIRI_TIMES(h, halfEdges) {
-        if (IsListed(mesh, marks, h)) {
-            kiriDetailEdge* edge = &detail->edges.data[counts[colors[h]]++];
-            edge->a = kiriMesh_Tail(mesh, h);
-            edge->b = kiriMesh_Head(mesh, h);
-            kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)),
-                                          kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)));
-            edge->rest = (float)kiriVec2_Length(along);
+    KIRI_EACH_INDEX(k, mesh->triangles) {
+        const int32_t* vertex = mesh->triangles.data[k].vertex;
+        KIRI_EACH_CORNER(i) {
+            int32_t color = colors[3 * k + i], a = vertex[i], b = vertex[(i + 1) % 3];
+            if (color < KIRI_DETAIL_COLORS) {
+                kiriVec2 from = kiriMesh_Local(mesh, kiriMesh_At(mesh, a)), to = kiriMesh_Local(mesh, kiriMesh_At(mesh, b));
+                detail->edges.data[counts[color]++] = (kiriDetailEdge){ a, b, (float)kiriVec2_Distance(from, to) };
+            }
         }
     }
-    memset(marks, 0, sizeof(*marks) * mesh->vertices.count); /* now: number of edges, and the border */
+    KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
+        marks[item->vertex] &= BORDER; /* and now the number of edges */
+    }
     KIRI_EACH(const kiriDetailEdge, edge, detail->edges) {
         marks[edge->a] += 1;
         marks[edge->b] += 1;
-    }
-    KIRI_TIMES(h, halfEdges) {
-        if (kiriMesh_IsBorder(mesh, h)) {
-            marks[kiriMesh_Tail(mesh, h)] |= BORDER;
-            marks[kiriMesh_Head(mesh, h)] |= BORDER;
-        }
     }
     KIRI_EACH(kiriDetailVertex, item, detail->vertices) {
         uint32_t mark = marks[item->vertex];

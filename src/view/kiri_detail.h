@@ -32,7 +32,7 @@ typedef struct kiriShift {
 } kiriShift;
 
 /* Edges of a color share no vertex, so their order changes no bit. Only edges of the last color may: they go one by one. */
-enum { KIRI_DETAIL_COLORS = 32, KIRI_MOST_DETAIL = 16 /* sweeps */ };
+enum { KIRI_DETAIL_COLORS = 31, KIRI_MOST_DETAIL = 16 /* sweeps */ };
 
 typedef struct kiriDetail {
     int32_t sweeps;            /* a tick; 0: offsets are of drawn lips and of pins alone */
