@@ -31,6 +31,7 @@ typedef __m128 kiriLanes;
 #define kiriLanes_Mul _mm_mul_ps
 #define kiriLanes_Div _mm_div_ps
 #define kiriLanes_Sqrt _mm_sqrt_ps
+#define kiriLanes_Max _mm_max_ps /* of numbers */
 /* Loads two floats, then two others. */
 static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* others)
 {
@@ -58,6 +59,7 @@ typedef float32x4_t kiriLanes;
 #define kiriLanes_Mul vmulq_f32
 #define kiriLanes_Div vdivq_f32
 #define kiriLanes_Sqrt vsqrtq_f32
+#define kiriLanes_Max vmaxq_f32
 static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* others)
 {
     return vcombine_f32(vld1_f32(two), vld1_f32(others));
@@ -113,6 +115,11 @@ KIRI_LANES_OPERATION(kiriLanes_Div, /)
 static inline kiriLanes kiriLanes_Sqrt(kiriLanes a)
 {
     return kiriLanes_Four(sqrtf(a.at[0]), sqrtf(a.at[1]), sqrtf(a.at[2]), sqrtf(a.at[3]));
+}
+static inline kiriLanes kiriLanes_Max(kiriLanes a, kiriLanes b)
+{
+    return kiriLanes_Four(kiriMax(a.at[0], b.at[0]), kiriMax(a.at[1], b.at[1]), kiriMax(a.at[2], b.at[2]),
+                          kiriMax(a.at[3], b.at[3]));
 }
 static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* others)
 {

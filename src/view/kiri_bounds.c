@@ -1,5 +1,7 @@
 #include "kiri_bounds.h"
+
 #include "../core/kiri_array.h"
+#include "../core/kiri_lanes.h"
 
 enum { LEAF_SIZE = 8, NODE_SIZE = 4 }; /* triangles of a leaf, children of a node */
 
@@ -18,18 +20,6 @@ void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 
     KIRI_EACH_CORNER(k) {
         corner[k] = kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]);
     }
-}
-
-/* Returns the least box around a triangle in world space. */
-static kiriBox BoxOfTriangle(const kiriSurface* surface, int32_t triangle)
-{
-    kiriVec3 corner[3];
-    kiriBox box = KIRI_EMPTY_BOX;
-    kiriSurface_Corners(surface, triangle, corner);
-    KIRI_EACH_CORNER(k) {
-        kiriBox_Add(&box, corner[k]);
-    }
-    return box;
 }
 
 /* Returns true if the corners of a triangle are one, see kiriSurface_HideTriangle. */
@@ -83,6 +73,7 @@ static bool ReserveTree(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     int32_t sorted = NeedsSorting(bounds, triangleCount) ? triangleCount : 0;
     return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
            kiriArrays_Reserve(memory, nodes, &bounds->nodes, &bounds->moves) &&
+           kiriArray_Reserve(memory, &bounds->sides, 6 * ((int64_t)triangleCount + LEAF_SIZE)) &&
            kiriArrays_Reserve(memory, sorted, &bounds->codes, &bounds->other);
 }
 
@@ -141,19 +132,26 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
     bounds->sorted = surface->triangleCount;
 }
 
-/* Returns the least box around triangles in world space. Compares floats: sums with the middle keep their order. */
-static kiriBox BoxOfLeaf(const kiriSurface* surface, const int32_t* triangles, int32_t count)
+/* Writes the sides of the triangles of a leaf, and returns their least box in world space. Compares floats: sums with the
+   middle keep their order. */
+static kiriBox FitLeaf(kiriBounds* bounds, const kiriSurface* surface, int32_t leaf)
 {
     const float* places = kiriSurface_Places(surface);
-    float lower[3] = { FLT_MAX, FLT_MAX, FLT_MAX }, upper[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX };
-    KIRI_TIMES(i, count) {
-        const int32_t* corner = kiriSurface_Triangle(surface, triangles[i]);
-        KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
-            const float* at = places + 3 * corner[k];
-            KIRI_TIMES(m, 3) {
-                lower[m] = kiriMin(at[m], lower[m]);
-                upper[m] = kiriMax(at[m], upper[m]);
-            }
+    float *sides = &bounds->sides.data[6 * LEAF_SIZE * leaf], lower[3], upper[3];
+    int32_t first, end = LeafItems(bounds, 0, leaf, &first);
+    KIRI_TIMES(m, 3) {
+        float *low = sides + LEAF_SIZE * m, *high = low + 3 * LEAF_SIZE;
+        lower[m] = FLT_MAX;
+        upper[m] = -FLT_MAX;
+        KIRI_TIMES(i, LEAF_SIZE) {
+            const int32_t* v = kiriSurface_Triangle(surface, bounds->order.data[first + i < end ? first + i : first]);
+            bool isSeen = first + i < end && v[0] != v[1];
+            float a = places[3 * v[0] + m], b = places[3 * v[1] + m], c = places[3 * v[2] + m];
+            float least = kiriMin(a, b), most = kiriMax(a, b);
+            low[i] = isSeen ? kiriMin(c, least) : FLT_MAX;
+            high[i] = isSeen ? kiriMax(c, most) : -FLT_MAX;
+            lower[m] = kiriMin(low[i], lower[m]);
+            upper[m] = kiriMax(high[i], upper[m]);
         }
     }
     return lower[0] > upper[0] ? KIRI_EMPTY_BOX
@@ -171,7 +169,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
                 continue;
             }
             int32_t first, end = LeafItems(bounds, level, node, &first);
-            kiriBox box = level == 0 ? BoxOfLeaf(surface, &bounds->order.data[first], end - first) : KIRI_EMPTY_BOX;
+            kiriBox box = level == 0 ? FitLeaf(bounds, surface, node) : KIRI_EMPTY_BOX;
             KIRI_FROM_TO_WHILE(level > 0, i, first, end) {
                 box.lower = kiriVec3_Least(nodes[i].lower, box.lower);
                 box.upper = kiriVec3_Most(nodes[i].upper, box.upper);
@@ -259,6 +257,7 @@ bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     kiriArray_Release(memory, &bounds->order);
     kiriArray_Release(memory, &bounds->nodes);
     kiriArray_Release(memory, &bounds->groups);
+    kiriArray_Release(memory, &bounds->sides);
     kiriArray_Release(memory, &bounds->moves);
     bounds->levelCount = 0;
     return true;
@@ -339,7 +338,12 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     KIRI_TIMES_WHILE(ok, i, count) {
         bool isFound = !IsHidden(search->surface, triangles[i]);
         if (isFound && !search->takesBoxes) {
-            kiriBox box = BoxOfTriangle(search->surface, triangles[i]);
+            kiriBox box = KIRI_EMPTY_BOX;
+            kiriVec3 corner[3];
+            kiriSurface_Corners(search->surface, triangles[i], corner);
+            KIRI_EACH_CORNER(k) {
+                kiriBox_Add(&box, corner[k]);
+            }
             isFound = search->meets(search->space, &box);
         }
         ok = !isFound || kiriArray_Push(search->memory, search->found, triangles[i]);
@@ -424,62 +428,77 @@ typedef struct NearSearch {
     const kiriSurface* surface;
     kiriGroup group;
     kiriVec3 from;
-    double most;
+    float near[3]; /* `from`, from surface->middle */
+    double most, slack; /* m^2; m: by which distances to triangles may round up */
     kiriNearFn* look;
     void* context;
 } NearSearch;
 
-/* Returns the square of the distance of an item of a node, or -1 if it has no triangle of the group. */
-static double SquareToItem(const NearSearch* search, int32_t level, int32_t item)
+/* Takes the triangles of a leaf whose boxes are near enough: distances may round up by `slack`. */
+static void SearchLeaf(NearSearch* search, int32_t leaf)
 {
-    const kiriBounds* bounds = search->bounds;
-    int32_t triangle = level > 0 ? KIRI_NONE : bounds->order.data[item], group = search->group.group;
-    kiriBox box;
-    if (level > 0) {
-        if ((bounds->groups.data[item] >> (group & 63) & 1) == 0) {
-            return -1.0;
+    const float* sides = &search->bounds->sides.data[6 * LEAF_SIZE * leaf];
+    float squares[LEAF_SIZE];
+    int32_t first, end = LeafItems(search->bounds, 0, leaf, &first);
+    for (int i = 0; i < LEAF_SIZE; i += 4) {
+        kiriLanes sum = kiriLanes_Splat(0.0f);
+        KIRI_TIMES(m, 3) {
+            const float *low = sides + LEAF_SIZE * m + i, *high = low + 3 * LEAF_SIZE;
+            kiriLanes from = kiriLanes_Splat(search->near[m]), off = kiriLanes_Splat(0.0f);
+            off = kiriLanes_Max(off, kiriLanes_Sub(kiriLanes_Load(low), from));
+            off = kiriLanes_Max(off, kiriLanes_Sub(from, kiriLanes_Load(high)));
+            sum = kiriLanes_Add(sum, kiriLanes_Mul(off, off));
         }
-        box = bounds->nodes.data[item];
-    } else {
-        if (GroupOf(search->surface, search->group.ofVertex, triangle) != group) {
-            return -1.0;
-        }
-        box = BoxOfTriangle(search->surface, triangle);
+        kiriLanes_Store(squares + i, sum);
     }
-    kiriVec3 off = kiriVec3_Sub(search->from, kiriVec3_Most(kiriVec3_Least(search->from, box.upper), box.lower));
-    return kiriVec3_Dot(off, off);
+    double within = sqrt(search->most) + search->slack;
+    KIRI_FROM_TO(i, first, end) {
+        int32_t triangle = search->bounds->order.data[i];
+        if ((double)squares[i - first] <= within * within &&
+            GroupOf(search->surface, search->group.ofVertex, triangle) == search->group.group) {
+            search->most = search->look(search->context, triangle);
+            within = sqrt(search->most) + search->slack;
+        }
+    }
 }
 
-/* Takes the items of a node, the nearest first. */
+/* Searches the children of a node, the nearest first. */
 static void SearchNode(NearSearch* search, int32_t level, int32_t node)
 {
     const double rounding = 1.0 + 1e-9; /* a box may round to be farther than its triangles */
-    double squares[LEAF_SIZE];
-    int32_t first, end = LeafItems(search->bounds, level, node, &first);
+    const kiriBounds* bounds = search->bounds;
+    double squares[NODE_SIZE];
+    int32_t first, end = LeafItems(bounds, level, node, &first);
+    if (level == 0) {
+        SearchLeaf(search, node);
+        return;
+    }
     KIRI_FROM_TO(i, first, end) {
-        squares[i - first] = SquareToItem(search, level, i);
+        const kiriBox* box = &bounds->nodes.data[i];
+        bool has = (bounds->groups.data[i] >> (search->group.group & 63) & 1) != 0;
+        kiriVec3 off = kiriVec3_Sub(search->from, kiriVec3_Most(kiriVec3_Least(search->from, box->upper), box->lower));
+        squares[i - first] = has ? kiriVec3_Dot(off, off) : DBL_MAX;
     }
     for (;;) {
-        int32_t best = KIRI_NONE;
-        KIRI_TIMES(i, end - first) {
-            best = squares[i] >= 0.0 && (best == KIRI_NONE || squares[i] < squares[best]) ? i : best;
+        int32_t best = 0;
+        KIRI_FROM_TO(i, 1, end - first) {
+            best = squares[i] < squares[best] ? i : best;
         }
-        if (best == KIRI_NONE || squares[best] > search->most * rounding) {
+        if (squares[best] == DBL_MAX || squares[best] > search->most * rounding) {
             return;
         }
-        squares[best] = -1.0;
-        if (level > 0) {
-            SearchNode(search, level - 1, first + best);
-        } else {
-            search->most = search->look(search->context, search->bounds->order.data[first + best]);
-        }
+        squares[best] = DBL_MAX;
+        SearchNode(search, level - 1, first + best);
     }
 }
 
 void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, kiriVec3 from,
                         double most, kiriNearFn* look, void* context)
 {
-    NearSearch search = { bounds, surface, group, from, most, look, context };
+    NearSearch search = { bounds, surface, group, from, { 0.0f }, most, 0.0, look, context };
+    kiriVec3 at = kiriVec3_Sub(from, surface->middle);
+    kiriVec3_Store(search.near, at);
+    search.slack = 4.0 * FLT_EPSILON * (kiriVec3_Length(at) + sqrt(most));
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface) && bounds->groups.count == bounds->nodes.count);
     KIRI_ASSERT(group.group >= 0);
     if (bounds->nodes.count > 0) {

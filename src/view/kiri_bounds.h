@@ -27,6 +27,7 @@ typedef struct kiriBounds {
 
     kiriIndices order;                  /* of triangles, leaf by leaf */
     KIRI_ARRAY(kiriBox) nodes;          /* leaves first, then each level above them; the last is the root */
+    kiriFloats sides;                   /* of the triangles of each leaf, from surface->middle: lowest x of all, y, z, highest */
     KIRI_ARRAY(uint32_t) codes;         /* scratch of sorting */
     kiriIndices other;                  /* the same */
     int32_t firsts[KIRI_BOUNDS_LEVELS]; /* of each level: its first node */

@@ -597,6 +597,10 @@ static double LookAtPlace(void* context, int32_t triangle)
     Search* search = context;
     kiriNear one = search->found[0];
     bool isFold = search->body == search->other;
+    const int32_t* v = kiriSurface_Triangle(&search->other->sheet->seen.surface, triangle);
+    if (isFold && (v[0] == one.vertex || v[1] == one.vertex || v[2] == one.vertex)) {
+        return kiriMax(search->least[0], search->least[1]);
+    }
     double squared = Measure(&one, search->world->pairs.bodies.data, triangle,
                              kiriMax(search->least[0], search->least[1]));
     double across = one.height * one.height;
@@ -873,16 +877,17 @@ static double LookAtCrossing(void* context, int32_t triangle)
     const kiriSurface* surface = &sheet->seen.surface;
     const int32_t* c = kiriSurface_Triangle(surface, triangle);
     kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
-    kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
-    bool areApart = true;
     KIRI_TIMES(k, 3) {
-        areApart = areApart && c[k] != search->a && c[k] != search->b;
+        if (c[k] == search->a || c[k] == search->b) {
+            return search->least[0];
+        }
     }
+    kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
     kiriNear near = { .triangle = triangle };
     kiriVec3 along = kiriVec3_Sub(q, p);
     double* part = &touch.upper.share[1];
     kiriSurface_Corners(surface, triangle, corner);
-    if (!areApart || !kiriTriangle_Cross(corner, p, along, part, near.share) || !(*part > 0.0 && *part <= 1.0)) {
+    if (!kiriTriangle_Cross(corner, p, along, part, near.share) || !(*part > 0.0 && *part <= 1.0)) {
         return search->least[0];
     }
     kiriVec3 at = kiriVec3_AddScaled(p, *part, along);
