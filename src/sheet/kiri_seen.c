@@ -687,7 +687,8 @@ static void ListDetail(kiriSheetData* sheet)
                 KIRI_NEXT(detail->vertices) = (kiriDetailVertex){ v, (float)leash, 0.0f };
             }
         }
-        kiriDetail_ListEdges(detail, &sheet->mesh);
+        kiriDetail_ListEdges(detail, &sheet->mesh, sheet->seen.surface.slopes.data);
+        sheet->seen.surface.hasSlopes = false;
     }
 }
 
@@ -729,7 +730,7 @@ bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
         }
         kiriTasks_Run(tasks, kiriDetail_Leash, count, VERTICES, &task);
     }
-    kiriDetail_Smooth(task.detail, task.skin);
+    kiriDetail_Smooth(task.detail, task.skin, surface->slopes.data); /* of awake vertices: kiriView_Sum renews them */
     kiriTasks_Run(tasks, kiriDetail_Leash, count, VERTICES, &task);
     return count > 0;
 }

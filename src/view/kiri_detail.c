@@ -23,7 +23,6 @@ bool kiriDetail_Reserve(kiriDetail* detail, kiriMemory* memory, int64_t vertices
     return hasRoom &&
            (detail->sweeps == 0 ||
             (kiriArray_Reserve(memory, &detail->moving, 4 * vertices + 8) &&
-            kiriArray_Reserve(memory, &detail->crease, 4 * vertices) &&
             kiriArray_Reserve(memory, &detail->vertices, vertices) &&
             kiriArray_Reserve(memory, &detail->edges, triangles + vertices + vertices / 3) &&
             kiriArray_Reserve(memory, &detail->awake, frames)));
@@ -58,14 +57,14 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
 
 #define BORDER 0x80000000u
 
-void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
+void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh, float* scratch)
 {
     int32_t counts[KIRI_DETAIL_COLORS] = { 0 };
-    /* Scratch in `crease`, which a tick fills later: the colors of the edges of each vertex, or all bits if it is not listed;
-       the color of each half-edge that stands for an edge of the list. Both lips of an open edge have one. */
-    uint32_t* marks = (void*)detail->crease.data;
+    /* Has the colors of the edges of each vertex, or all bits if it is not listed; then the color of each half-edge that
+       stands for an edge of the list. Both lips of an open edge have one. */
+    uint32_t* marks = (void*)scratch;
     uint8_t* colors = (uint8_t*)(marks + mesh->vertices.count);
-    KIRI_ASSERT(mesh->vertices.count + 3 * (int64_t)mesh->triangles.count / 4 < detail->crease.capacity);
+    KIRI_ASSERT(mesh->triangles.count / 4 < mesh->vertices.count); /* the colors take 3 bytes a triangle */
     memset(marks, 0xFF, sizeof(*marks) * mesh->vertices.count);
     KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
         KIRI_ASSERT_HAS(mesh->vertices, item->vertex);
@@ -224,9 +223,9 @@ void kiriDetail_Leash(int32_t begin, int32_t end, void* context)
 
 /* Takes a part of the squared Laplacian off the offsets: else compressed cloth crinkles from edge to edge of the mesh. On
    the outline the first Laplacian counts as 0, as on the free edge of a plate. */
-void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
+void kiriDetail_Smooth(kiriDetail* detail, const float* skin, float* crease)
 {
-    float *offsets = detail->moving.data, *crease = detail->crease.data;
+    float* offsets = detail->moving.data;
     KIRI_ASSERT(detail->isListed);
     KIRI_EACH(const kiriDetailVertex, item, detail->vertices) {
         ptrdiff_t vertex = item->vertex;

@@ -41,7 +41,6 @@ typedef struct kiriDetail {
     KIRI_ARRAY(float) drawn;   /* drawn positions, 3 a vertex, from where the skin's are */
     float longest;             /* m: no offset is longer along an axis */
     KIRI_ARRAY(float) moving;  /* scratch of a tick, 4 a vertex: position, and 1 if the vertex is free */
-    KIRI_ARRAY(float) crease;  /* scratch of a tick, 4 a vertex: Laplacian of the offsets, and weight */
 
     /* Lists of the vertices and edges of awake pieces. */
     bool isListed; /* false: they are stale */
@@ -66,8 +65,8 @@ void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames);
 void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth);
 
 /* Lists the edges between the listed vertices, and colors them in the order of half-edges: lists follow from the mesh
-   alone. O(triangles). */
-void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh);
+   alone. O(triangles). Writes over `scratch`, 4 floats a vertex. */
+void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh, float* scratch);
 
 /* Context of the tasks of a tick. */
 typedef struct kiriDetailTask {
@@ -77,10 +76,11 @@ typedef struct kiriDetailTask {
 } kiriDetailTask;
 
 /* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, Leash, then End. Items of the tasks are groups of
-   edges in a color, or listed vertices. */
+   edges in a color, or listed vertices. Smooth leaves the Laplacian of the offsets and a weight in `crease`, 4 floats a
+   vertex that is listed. */
 kiriTaskFn kiriDetail_Begin, kiriDetail_Sweep, kiriDetail_Leash;
 int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color);
-void kiriDetail_Smooth(kiriDetail* detail, const float* skin);
+void kiriDetail_Smooth(kiriDetail* detail, const float* skin, float* crease);
 void kiriDetail_End(kiriDetail* detail, const float* skin);
 
 /* Writes the drawn positions of the vertices from `begin` to `end`. Measure updates `longest`. */

@@ -655,7 +655,7 @@ KIRI_TABLE(DetailTable, kiriDetail, {
     KIRI_DROPPED(longest),
     KIRI_DROPPED(isListed),
     KIRI_DERIVED,
-    KIRI_ARRAYS(drawn, moving, crease, vertices, edges, awake, shifts),
+    KIRI_ARRAYS(drawn, moving, vertices, edges, awake, shifts),
 })
 
 KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {

@@ -76,7 +76,7 @@ typedef struct kiriSurface {
 
     KIRI_ARRAY(kiriVec2) rest; /* local m */
     kiriFlags turns;           /* of pairs of triangles, for normals: see kiriCorners */
-    kiriFloats slopes;         /* sums for the normals, 4 a vertex */
+    kiriFloats slopes;         /* sums for the normals, 4 a vertex; before that scratch of the detail layer */
     int64_t pose;              /* grows whenever positions or corners may have changed */
     kiriVec3 middle;           /* m: near the sheet; 0 if the sheet is near the origin of the world */
     KIRI_ARRAY(float) places;  /* the skin from `middle`, 3 a vertex; unused if it is `positions`, see Places */
