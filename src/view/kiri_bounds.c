@@ -73,7 +73,6 @@ static bool ReserveTree(kiriBounds* bounds, kiriMemory* memory, int32_t triangle
     int32_t sorted = NeedsSorting(bounds, triangleCount) ? triangleCount : 0;
     return kiriArray_Reserve(memory, &bounds->order, triangleCount) &&
            kiriArrays_Reserve(memory, nodes, &bounds->nodes, &bounds->moves) &&
-           kiriArray_Reserve(memory, &bounds->sides, 6 * ((int64_t)triangleCount + LEAF_SIZE)) &&
            kiriArrays_Reserve(memory, sorted, &bounds->codes, &bounds->other);
 }
 
@@ -132,26 +131,19 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
     bounds->sorted = surface->triangleCount;
 }
 
-/* Writes the sides of the triangles of a leaf, and returns their least box in world space. Compares floats: sums with the
-   middle keep their order. */
-static kiriBox FitLeaf(kiriBounds* bounds, const kiriSurface* surface, int32_t leaf)
+/* Returns the least box around triangles in world space. Compares floats: sums with the middle keep their order. */
+static kiriBox BoxOfLeaf(const kiriSurface* surface, const int32_t* triangles, int32_t count)
 {
     const float* places = kiriSurface_Places(surface);
-    float *sides = &bounds->sides.data[6 * LEAF_SIZE * leaf], lower[3], upper[3];
-    int32_t first, end = LeafItems(bounds, 0, leaf, &first);
-    KIRI_TIMES(m, 3) {
-        float *low = sides + LEAF_SIZE * m, *high = low + 3 * LEAF_SIZE;
-        lower[m] = FLT_MAX;
-        upper[m] = -FLT_MAX;
-        KIRI_TIMES(i, LEAF_SIZE) {
-            const int32_t* v = kiriSurface_Triangle(surface, bounds->order.data[first + i < end ? first + i : first]);
-            bool isSeen = first + i < end && v[0] != v[1];
-            float a = places[3 * v[0] + m], b = places[3 * v[1] + m], c = places[3 * v[2] + m];
-            float least = kiriMin(a, b), most = kiriMax(a, b);
-            low[i] = isSeen ? kiriMin(c, least) : FLT_MAX;
-            high[i] = isSeen ? kiriMax(c, most) : -FLT_MAX;
-            lower[m] = kiriMin(low[i], lower[m]);
-            upper[m] = kiriMax(high[i], upper[m]);
+    float lower[3] = { FLT_MAX, FLT_MAX, FLT_MAX }, upper[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX };
+    KIRI_TIMES(i, count) {
+        const int32_t* corner = kiriSurface_Triangle(surface, triangles[i]);
+        KIRI_TIMES_WHILE(corner[0] != corner[1], k, 3) {
+            const float* at = places + 3 * corner[k];
+            KIRI_TIMES(m, 3) {
+                lower[m] = kiriMin(at[m], lower[m]);
+                upper[m] = kiriMax(at[m], upper[m]);
+            }
         }
     }
     return lower[0] > upper[0] ? KIRI_EMPTY_BOX
@@ -169,7 +161,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
                 continue;
             }
             int32_t first, end = LeafItems(bounds, level, node, &first);
-            kiriBox box = level == 0 ? FitLeaf(bounds, surface, node) : KIRI_EMPTY_BOX;
+            kiriBox box = level == 0 ? BoxOfLeaf(surface, &bounds->order.data[first], end - first) : KIRI_EMPTY_BOX;
             KIRI_FROM_TO_WHILE(level > 0, i, first, end) {
                 box.lower = kiriVec3_Least(nodes[i].lower, box.lower);
                 box.upper = kiriVec3_Most(nodes[i].upper, box.upper);
@@ -178,6 +170,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
         }
     }
     bounds->pose = surface->pose;
+    bounds->sides.count = 0;
     bounds->moves.count = moves != NULL ? bounds->moves.count : 0;
 }
 
@@ -423,6 +416,30 @@ bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface*
     return true;
 }
 
+bool kiriBounds_FitSides(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface)
+{
+    const float* places = kiriSurface_Places(surface);
+    int64_t leaves = EndOfLevel(bounds, 0);
+    if (bounds->sides.count == 6 * LEAF_SIZE * leaves) {
+        return true;
+    }
+    if (!kiriArray_Resize(memory, &bounds->sides, 6 * LEAF_SIZE * leaves)) {
+        return false;
+    }
+    KIRI_TIMES(i, LEAF_SIZE * (int32_t)leaves) {
+        float* low = &bounds->sides.data[6 * LEAF_SIZE * (i / LEAF_SIZE) + i % LEAF_SIZE];
+        bool isTriangle = i < bounds->order.count && !IsHidden(surface, bounds->order.data[i]);
+        const int32_t* v = kiriSurface_Triangle(surface, bounds->order.data[isTriangle ? i : 0]);
+        const float *x = places + 3 * v[0], *y = places + 3 * v[1], *z = places + 3 * v[2];
+        KIRI_TIMES(m, 3) {
+            float least = kiriMin(x[m], y[m]), most = kiriMax(x[m], y[m]);
+            low[LEAF_SIZE * m] = isTriangle ? kiriMin(z[m], least) : FLT_MAX;
+            low[LEAF_SIZE * (m + 3)] = isTriangle ? kiriMax(z[m], most) : -FLT_MAX;
+        }
+    }
+    return true;
+}
+
 typedef struct NearSearch {
     const kiriBounds* bounds;
     const kiriSurface* surface;
@@ -500,6 +517,7 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
     kiriVec3_Store(search.near, at);
     search.slack = 4.0 * FLT_EPSILON * (kiriVec3_Length(at) + sqrt(most));
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface) && bounds->groups.count == bounds->nodes.count);
+    KIRI_ASSERT(bounds->sides.count > 0 || bounds->nodes.count == 0);
     KIRI_ASSERT(group.group >= 0);
     if (bounds->nodes.count > 0) {
         SearchNode(&search, bounds->levelCount - 1, bounds->nodes.count - 1);

@@ -27,7 +27,8 @@ typedef struct kiriBounds {
 
     kiriIndices order;                  /* of triangles, leaf by leaf */
     KIRI_ARRAY(kiriBox) nodes;          /* leaves first, then each level above them; the last is the root */
-    kiriFloats sides;                   /* of the triangles of each leaf, from surface->middle: lowest x of all, y, z, highest */
+    kiriFloats sides;                   /* of the triangles of each leaf, from surface->middle: lowest x of all, y, z, highest;
+                                           empty: not known */
     KIRI_ARRAY(uint32_t) codes;         /* scratch of sorting */
     kiriIndices other;                  /* the same */
     int32_t firsts[KIRI_BOUNDS_LEVELS]; /* of each level: its first node */
@@ -110,6 +111,9 @@ typedef struct kiriGroup {
    group. Call it after kiriBounds_Update, and again when groups have changed. Returns false on out of memory. */
 bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
                       int32_t groupCount);
+
+/* Notes the sides of all triangles, likewise, unless the boxes have not changed since. Returns false on out of memory. */
+bool kiriBounds_FitSides(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface);
 
 /* Calls `look` for triangles of a group that may be near enough, nearer boxes first. `most`: square of the distance at the
    start, m^2. */

@@ -773,7 +773,7 @@ static bool UpdateBounds(kiriSheetData* sheet)
                               sheet->layout.pieces.count);
     }
     sheet->probes.areGrouped = ok;
-    return ok;
+    return ok && kiriBounds_FitSides(bounds, sheet->memory, surface);
 }
 
 /* A piece that is gone touches nothing. */
