@@ -806,19 +806,55 @@ static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriC
     kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
 }
 
+/* The same for rigid frames in space, each of which carries one point: derivatives of a member go to their place at once. */
+static void AddRigidMembers(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, int32_t first,
+                            int32_t count, double share, const kiriPointSprings* at)
+{
+    enum { SIZE = 6 };
+    double J[KIRI_POINT_ROWS * KIRI_CONTACT_MEMBERS * SIZE], springs[KIRI_POINT_ROWS];
+    int32_t frames[KIRI_CONTACT_MEMBERS];
+    KIRI_ASSERT(count <= KIRI_CONTACT_MEMBERS && share > 0.0);
+    KIRI_TIMES(m, count) {
+        const kiriContactMember* member = &step->members[first + m];
+        const kiriFrameData* frame = &system->frames[member->frame];
+        double weight = frame->held ? 0.0 : member->value;
+        kiriVec3 arm = kiriPose_Along(&solver->poses.data[member->frame], kiriVec2_Sub(member->at, frame->center));
+        frames[m] = member->frame;
+        KIRI_TIMES(e, KIRI_POINT_ROWS) {
+            double* to = &J[SIZE * (count * e + m)];
+            kiriVec3 along = kiriVec3_Scale(weight, at->axis[e]);
+            kiriVec3_StoreDoubles(to, along);
+            kiriVec3_StoreDoubles(to + 3, kiriVec3_Cross(arm, along));
+        }
+    }
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
+        springs[e] = at->spring[e] / share;
+    }
+    kiriSolver_AddSquares(solver, frames, count, J, springs, at->pull, KIRI_POINT_ROWS);
+}
+
 /* A member without a common block gets a separate spring, which its weight scales. All springs together are at least as stiff as
    the spring of the point, and exactly as stiff where all frames move alike. */
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
         kiriPointSprings at = SpringsOf(step, step->row->normal);
+        bool isRigid = solver->size == 6 && !system->mechanics.planar && !kiriContact_IsMutual(step) && step->body == NULL;
         double share = 1.0; /* of the coupled members: the largest weight is one of them */
         KIRI_FROM_TO(m, step->coupledCount, step->memberCount) {
             KIRI_ASSERT(step->members[m].value > 0.0);
             share -= step->members[m].value;
-            AddMembers(solver, system, step, m, 1, step->members[m].value, at);
+            if (isRigid) {
+                AddRigidMembers(solver, system, step, m, 1, step->members[m].value, &at);
+            } else {
+                AddMembers(solver, system, step, m, 1, step->members[m].value, at);
+            }
         }
-        AddMembers(solver, system, step, 0, step->coupledCount, share, at);
+        if (isRigid) {
+            AddRigidMembers(solver, system, step, 0, step->coupledCount, share, &at);
+        } else {
+            AddMembers(solver, system, step, 0, step->coupledCount, share, at);
+        }
     }
 }
 
