@@ -574,9 +574,16 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step)
     step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, along));
 }
 
-static void LinearizeContact(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
+void kiriSolver_PlaceContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    step->point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH_WHILE(!solver->touch.isPlaced, kiriContactStep, step, solver->contacts) {
+        step->point = step->isFar ? step->point : kiriContact_Point(system, step, solver->poses.data);
+    }
+    solver->touch.isPlaced = true;
+}
+
+static void LinearizeContact(const kiriSolver* solver, kiriContactStep* step)
+{
     step->depth = DepthAt(step, step->point);
     step->slide = SlideAt(step, step->point);
     if (IsSoft(step->row)) {
@@ -593,8 +600,9 @@ static void LinearizeContact(const kiriSolver* solver, const kiriSystem* system,
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
     CountPressed(solver);
+    kiriSolver_PlaceContacts(solver, system);
     KIRI_EACH_NEAR(step, solver) {
-        LinearizeContact(solver, system, step);
+        LinearizeContact(solver, step);
     }
 }
 
@@ -607,7 +615,8 @@ static void ComeNear(kiriSolver* solver, const kiriSystem* system, kiriContactSt
     step->isFar = false;
     PrepareContact(solver, system, all, step->memberCount, 1.0, step);
     GuessState(solver, system, step);
-    LinearizeContact(solver, system, step);
+    step->point = kiriContact_Point(system, step, solver->poses.data);
+    LinearizeContact(solver, step);
 }
 
 void kiriSolver_FindNear(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
@@ -658,12 +667,12 @@ static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide
            0.5 * TurnSpring(step) * kiriVec3_Dot(beside, beside);
 }
 
-double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                          const kiriPose* poses)
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, const kiriPose* poses)
 {
     if (IsSoft(step->row)) {
         bool isKnown = solver->isAlong && poses == solver->poses.data;
-        return SoftEnergy(step, isKnown ? step->point : kiriContact_Point(system, step, poses));
+        step->tried = isKnown ? step->point : kiriContact_Point(system, step, poses);
+        return SoftEnergy(step, step->tried);
     }
     if (!step->isActive) {
         return 0.0;
@@ -947,8 +956,9 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
         bool isEarly = kiriContact_IsMutual(step) && solver->search.solved < EARLY_MUTUAL;
         return kiriMax(-step->push, isEarly ? step->change : 0.0) > UNSETTLED * mostPush;
     }
-    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), slide = SlideAt(step, point);
-    double inertia = InertiaOf(solver, step), tolerance = PUSH_TOLERANCE * mostPush, depth = DepthAt(step, point);
+    step->point = kiriContact_Point(system, step, solver->poses.data);
+    kiriVec3 slide = SlideAt(step, step->point);
+    double inertia = InertiaOf(solver, step), tolerance = PUSH_TOLERANCE * mostPush, depth = DepthAt(step, step->point);
     if (!step->isActive) {
         if (depth > 0.0) {
             Activate(step, row->friction, inertia, depth, slide);
@@ -969,10 +979,11 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mostPush = 0.0; /* N */
     KIRI_EACH_NEAR(step, solver) {
+        step->point = IsSoft(step->row) && solver->search.isTaken ? step->tried : step->point;
         if (!IsSoft(step->row)) {
             TakeForces(step, solver->search.scale);
         } else if (solver->search.scale > 0.0) {
-            TakeSoft(step, kiriContact_Point(system, step, solver->poses.data), solver->search.scale);
+            TakeSoft(step, step->point, solver->search.scale);
         }
         mostPush = kiriMax(step->push, mostPush);
     }
@@ -980,6 +991,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH_NEAR(contact, solver) {
         solver->touch.isUnsettled |= Review(solver, system, contact, mostPush);
     }
+    solver->touch.isPlaced = true;
 }
 
 /* ---- Holding ----------------------------------------------------------------------------------------------------- */
@@ -1153,6 +1165,7 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
             ComeNear(solver, system, step); /* frames are held by themselves, and the point of one may be deep */
         }
     }
+    solver->touch.isPlaced = false;
     memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
     ShareMass(solver);
     TurnBack(solver, system);

@@ -21,6 +21,7 @@ void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
             kiriVec3* x = &solver->poses.data[f].x;
             *x = kiriVec3_AddScaled(*x, 1.0 / mass, mean);
         }
+        solver->touch.isPlaced = false;
     }
 }
 
@@ -114,8 +115,8 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
                                    .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
+    kiriSolver_PlaceContacts(solver, system);
     KIRI_EACH_NEAR(step, solver) {
-        step->point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         if (system->mechanics.planar) {
             impulse = kiriMechanics_InPlane(&system->mechanics, impulse);

@@ -442,7 +442,8 @@ typedef struct kiriContactStep {
     bool isHeld;      /* the host holds half of the frames or more, by weight */
     double mass;      /* kg: of the frames, by weight */
     kiriVec3 start;   /* m: position of the point at the start of the step */
-    kiriVec3 point;   /* m: at the last kiriSolver_LinearizeContacts or kiriSolver_FindGains */
+    kiriVec3 point;   /* m: see kiriSolver_PlaceContacts */
+    kiriVec3 tried;   /* m, of a soft contact: at the poses that were evaluated last */
     kiriVec3 carried; /* m: displacement of the obstacle in the step */
     double plane;     /* m: offset at the end of the step, limited by pushSpeed */
     double lowered;   /* m: distance of that plane below the obstacle's surface */
@@ -497,6 +498,7 @@ typedef struct kiriSearch {
 typedef struct kiriContactSum {
     bool isNear;       /* some contacts can push */
     bool hasFar;       /* some contacts were far at the start */
+    bool isPlaced;     /* points of contacts belong to the poses */
     bool isUnsettled;  /* some contacts need another system */
     bool isHeldUp;     /* frames were moved up to planes after the last system */
     double means;      /* J: allowance of the stored energy beyond its value at the start */
@@ -732,6 +734,9 @@ void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
 double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
 
+/* Finds the points of near contacts at solver->poses, unless these have not changed since. */
+void kiriSolver_PlaceContacts(kiriSolver* solver, const kiriSystem* system);
+
 /* Linearize sets springs, depths and slides before a system is assembled. MoveContacts sets their changes after the
    system is solved. */
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
@@ -743,8 +748,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_LimitByFriction(kiriSolver* solver);
 
 /* Returns the contribution of the contact to the objective, by its linear model along the step. */
-double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                          const kiriPose* poses);
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, const kiriPose* poses);
 
 /* Finds the contact forces after a Gauss-Newton step and chooses the state of contacts for the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);

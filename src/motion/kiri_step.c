@@ -94,6 +94,7 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
                         : kiriPrediction_Free(frame, material, gravity, &solver->stepping, isAffine);
         solver->poses.data[f] = solver->predictions.data[f].guess;
     }
+    solver->touch.isPlaced = false;
     ShiftFreeBody(solver, system);
 }
 
@@ -1262,6 +1263,7 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
     search->solved = FREE_SYSTEMS;
     search->isFirst = false;
     memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    solver->touch.isPlaced = false;
     kiriSolver_FindGains(solver, system);
     return true;
 }
