@@ -1611,19 +1611,19 @@ static bool ListFaces(const LinkUpdate* u, int32_t region)
     bool isDirty = regions->dirty.data[region];
     int32_t cell = regions->border.first.data[region];
     for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
-        KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
-            u->work->stale.data[u->owner[step.cell]] |= isDirty ? REGION_STALE : 0;
+        if (isDirty) {
+            KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+                u->work->stale.data[u->owner[step.cell]] |= REGION_STALE;
+            }
         }
-        for (int32_t f = u->grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
-            const kiriFace* face = &u->grid->faces.data[f];
-            int32_t other = u->owner[kiriFace_Other(face, cell)];
+        KIRI_EACH_FACE(f, u->grid, cell) {
+            int32_t other = u->owner[kiriFace_Other(&u->grid->faces.data[f], cell)];
             if (other != region && IsListedFrom(u, region, other)) {
                 if (!kiriArray_Push(u->memory, &u->work->faces, f)) {
                     return false;
                 }
                 u->work->marks.data[f] = FACE_FOUND;
             }
-            f = kiriFace_Next(face, cell);
         }
         u->work->due += isDirty ? STALE_ITEMS + FACES_ITEMS : FACES_ITEMS;
     }
