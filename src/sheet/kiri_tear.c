@@ -9,10 +9,12 @@
 #define TURN 1.5        /* rad: of a tear over a spacing, at most */
 #define PACE 0.5        /* spacings in a tick, at most */
 #define LEAST_PACE 0.05 /* spacings, where the pace is lower: each step shakes the sheet */
+#define SLOW_PACE 0.02  /* spacings, where a longer step takes all tension away */
+#define SLACK 1.5       /* of the step after which the tension is as the tear takes it: legs that are bent are as soft again */
 #define LEAST_STEP 4.0  /* snap distances */
 #define ROUNDED 4.0      /* lattice steps: a tip this near to a lip is on it */
 #define LINE_REACH 2.0  /* snap distances: a tip this near to a tear line is on it */
-#define STRESS_SHARE 3.0 /* spacings: the stress ahead opens a crack of about this length */
+#define STRESS_SHARE 2.0 /* spacings: the stress ahead opens a crack of about this length */
 #define OWN_REACH 1.0    /* spacings around a site: the mean stress there is compared with the strength */
 #define STRONG_REACH 0.3 /* times toughness E / strength^2: the mean over a half disc of a crack that just tears */
 #define FIRST_STEP 0.5   /* spacings: length of a new tear */
@@ -271,7 +273,8 @@ static double ReleaseOfLink(const kiriSheetData* sheet, const Ring* ring, int32_
 }
 
 /* Returns the energy that a corner sets free. Let t be the trace of the gradient of the displacement u, k its stiffness, and q' the
-   gradient of q: k t (e . grad u) . q' - k t^2 / 2 e . q'. */
+   gradient of q: k t (e . grad u) . q' - k t^2 / 2 e . q'. u is measured from frames that turn, so q k t times the divergence of
+   what turns e is taken off. */
 static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, const kiriCorner* corner)
 {
     const kiriLink* links = sheet->links.links.data;
@@ -292,6 +295,11 @@ static double ReleaseOfCorner(const kiriSheetData* sheet, const Ring* ring, cons
     KIRI_EACH_INDEX(n, *corner) {
         const kiriLink* link = &links[corner->link[n]];
         double normal = kiriVec2_Dot(link->normal, slope), tangent = kiriVec2_Dot(link->tangent, slope);
+        const kiriPose i = kiriPose_Of(&sheet->frames.data[link->i]), j = kiriPose_Of(&sheet->frames.data[link->j]);
+        kiriVec3 turn = kiriVec3_Sub(kiriPose_Along(&j, ring->along), kiriPose_Along(&i, ring->along));
+        double u = kiriVec3_Dot(turn, kiriVec3_Add(i.A.u, j.A.u)), v = kiriVec3_Dot(turn, kiriVec3_Add(i.A.v, j.A.v));
+        double move = RingMoveOf(sheet, ring, link->i) + RingMoveOf(sheet, ring, link->j);
+        sum -= 0.25 * move * stretch * kiriVec2_Dot(corner->weight[n], kiriVec2_Make(u, v));
         sum += kiriVec2_Dot(corner->weight[n], ring->along) *
                (stretch * (pulls[n][KIRI_STRETCH] * normal + pulls[n][KIRI_SHEAR] * tangent) +
                 bending * (pulls[n][KIRI_BENDING] * normal + pulls[n][KIRI_TWIST] * tangent));
@@ -487,6 +495,30 @@ static void FollowLines(const kiriSheetData* sheet, kiriVec2 at, kiriVec2 straig
     }
 }
 
+/* Returns the energy of a piece that is gone once it is slack: of tension, and of springs that pull. */
+static double Tension(const kiriSheetData* sheet, int32_t piece)
+{
+    double sum = 0.0, stiffness[KIRI_STRAINS];
+    KIRI_EACH_INDEX(k, sheet->tears.pulls) {
+        const kiriLink* link = &sheet->links.links.data[k];
+        const double* pull = sheet->tears.pulls.data[k].strain;
+        if (sheet->layout.framePiece.data[link->i] == piece) {
+            kiriStrain_Stiffness(link, &sheet->settings.material, stiffness);
+            sum += 0.5 * (stiffness[KIRI_STRETCH] * pull[KIRI_STRETCH] * pull[KIRI_STRETCH] +
+                          stiffness[KIRI_SHEAR] * pull[KIRI_SHEAR] * pull[KIRI_SHEAR]);
+        }
+    }
+    KIRI_EACH(const kiriPinRow, pin, sheet->pinRows) {
+        const kiriFrameData* frame = &sheet->frames.data[pin->frame];
+        const kiriPose pose = kiriPose_Of(frame);
+        kiriVec3 off = kiriPose_Along(&pose, kiriVec2_Sub(pin->at, frame->center));
+        kiriVec3 way = kiriVec3_Sub(pin->target, kiriVec3_Add(pose.x, off));
+        bool isIn = sheet->layout.framePiece.data[pin->frame] == piece;
+        sum += isIn ? 0.5 * pin->stiffness * kiriVec3_Dot(way, way) : 0.0;
+    }
+    return sum;
+}
+
 kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, double most, kiriVec2* along)
 {
     int32_t piece = kiriPiece_OfVertex(sheet, tip->vertex);
@@ -507,9 +539,11 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     if (!(way.free > way.taken)) {
         return at;
     }
-    double step = kiriMin(kiriMin(spacing * (LEAST_PACE + PACE * (1.0 - way.taken / way.free)), way.most), most);
+    double surplus = 1.0 - way.taken / way.free, slack = SLACK * surplus * Tension(sheet, piece) / way.taken;
+    double pace = kiriMin(spacing * (LEAST_PACE + PACE * surplus), kiriMax(slack, SLOW_PACE * spacing));
+    double step = kiriMin(kiriMin(pace, way.most), most);
     /* Legs that are taut pull along the sheet: their stress grows with the square of the release. */
-    double turns = 2.0 * opens * way.taken / (way.free * way.free);
+    double turns = 3.0 * opens * way.taken / (way.free * way.free);
     bool isFree = way.along.x == 0.0 && way.along.y == 0.0;
     *along = isFree ? AimTear(sheet, tip->along, &stress, 0.5 * TURN * step / spacing, turns) : way.along;
     kiriVec2 to = kiriVec2_Scale(step, *along);
