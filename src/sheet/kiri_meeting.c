@@ -9,8 +9,6 @@
 /* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
 #define SAME_FACE 0.9
 
-#define LEFT_IN_FOLDS 0.1f /* of the detail layer's offset, a tick */
-
 /* Fraction of the contact distance. A point this little above it is a touch, even if it cannot reach it in this tick.
    So a resting point that lifts a little keeps its force. */
 #define NEARBY 0.5
@@ -928,35 +926,8 @@ static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
     }
 }
 
-/* Takes most of the way from the skin to the drawn vertex back where the sheet folds, and at neighbors. The layers of a
-   fold are as near to each other as the way is long. */
-static void FlattenDetail(kiriSheetData* sheet)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    kiriFlags* marks = &sheet->probes.marks;
-    KIRI_EACH(const kiriDetailEdge, edge, surface->detail.edges) {
-        if (edge->a < marks->count && edge->b < marks->count &&
-            ((marks->data[edge->a] | marks->data[edge->b]) & KIRI_FOLD_NEAR) != 0) {
-            marks->data[edge->a] |= KIRI_FOLD_FLAT;
-            marks->data[edge->b] |= KIRI_FOLD_FLAT;
-        }
-    }
-    KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
-        if (item->leash >= 0.0f && item->vertex < marks->count && (marks->data[item->vertex] & KIRI_FOLD_FLAT) != 0) {
-            float* moving = surface->detail.moving.data + 4 * item->vertex;
-            const float* skin = kiriSurface_Places(surface) + 3 * item->vertex;
-            KIRI_TIMES(k, 3) {
-                moving[k] = skin[k] + LEFT_IN_FOLDS * (moving[k] - skin[k]);
-            }
-        }
-    }
-}
-
 void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count, kiriSheetData* sheet)
 {
-    if (sheet->probes.folds) {
-        FlattenDetail(sheet);
-    }
     kiriBox box = count > 0 ? BoxOfDetail(&sheet->seen.surface) : (kiriBox){ 0 };
     KIRI_TIMES(i, count) {
         if ((obstacles[i]->groups & sheet->settings.groups) != 0 &&

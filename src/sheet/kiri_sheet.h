@@ -166,7 +166,6 @@ typedef struct kiriPinAnchor {
 enum {
     KIRI_FOLD_NEAR = 1,    /* another layer is near */
     KIRI_FOLD_TANGLED = 2, /* on the wrong side of a layer */
-    KIRI_FOLD_FLAT = 4,    /* drawn on the skin */
     KIRI_FOLD_PROBE = 8,
     KIRI_FOLD_ABOVE = 16, /* above the layer in front of the probe; times 2: behind it */
     KIRI_FOLD_BELOW = 64, /* the same below */
@@ -189,6 +188,7 @@ typedef struct kiriProbes {
     KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
     kiriFlags marks;                 /* per vertex, while a piece folds: KIRI_FOLD_... of this tick */
+    KIRI_ARRAY(float) rooms;         /* m, per vertex, while a piece folds: longest offset of the detail layer */
 } kiriProbes;
 
 /* A pinned point that is drawn at its pin. */

@@ -202,7 +202,7 @@ KIRI_TABLE(ProbesTable, kiriProbes, {
     KIRI_DROPPED(areGrouped),
     KIRI_DROPPED(sheet, list),
     KIRI_DROPPED(boxes, touch),
-    KIRI_DROPPED(marks),
+    KIRI_DROPPED(marks, rooms),
 })
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */

@@ -212,8 +212,10 @@ void kiriDetail_Leash(int32_t begin, int32_t end, void* context)
         const float* from = task->skin + 3 * item.vertex;
         float* at = detail->moving.data + 4 * item.vertex;
         float x = at[0] - from[0], y = at[1] - from[1], z = at[2] - from[2], square = x * x + y * y + z * z;
-        if (item.leash > 0.0f && !(square <= item.leash * item.leash)) {
-            float share = square < 1e30f ? item.leash / sqrtf(square) : 0.0f;
+        float room = item.vertex < task->roomCount ? task->rooms[item.vertex] : item.leash;
+        float leash = kiriMin(item.leash, room);
+        if (item.leash > 0.0f && !(square <= leash * leash)) {
+            float share = square < 1e30f ? leash / sqrtf(square) : 0.0f;
             at[0] = from[0] + share * x;
             at[1] = from[1] + share * y;
             at[2] = from[2] + share * z;

@@ -73,6 +73,8 @@ typedef struct kiriDetailTask {
     kiriDetail* detail;
     const float* skin; /* 3 floats a vertex */
     int32_t color;     /* of the sweep */
+    const float* rooms; /* m: longest offsets of the first vertices; */
+    int32_t roomCount;  /* 0: none */
 } kiriDetailTask;
 
 /* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, Leash, then End. Items of the tasks are groups of

@@ -545,22 +545,29 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
 }
 
 #define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
-#define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other */
+#define OPEN 0.5         /* of their distance at rest: places farther apart are beside each other, */
+#define PASSING 0.125    /* and partly so from this much less on */
 
-/* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
-   or the same frames carry them. Zero if places at this distance are beside each other. */
-static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, double off)
+/* Returns the distance of a probe and a place of the same piece at rest, m. */
+static double DistanceAtRest(const kiriSheetData* sheet, const kiriNear* near)
 {
-    const kiriSkin* skin = &sheet->vertexSkin;
     const kiriSurface* surface = &sheet->seen.surface;
     const int32_t* corners = kiriSurface_Triangle(surface, near->triangle);
-    kiriSpan own = skin->spans.data[near->vertex];
     kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
-    double shared = 0.0;
     KIRI_TIMES(c, 3) {
         apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
     }
-    double rest = sqrt(kiriVec2_Dot(apart, apart));
+    return sqrt(kiriVec2_Dot(apart, apart));
+}
+
+/* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
+   or the same frames carry them. Zero if places at this distance are beside each other. */
+static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, double rest, double off)
+{
+    const kiriSkin* skin = &sheet->vertexSkin;
+    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, near->triangle);
+    kiriSpan own = skin->spans.data[near->vertex];
+    double shared = 0.0;
     if (off >= OPEN * rest) {
         return 0.0;
     }
@@ -586,6 +593,8 @@ typedef struct Search {
     kiriVec3 ahead;     /* normal at the probe */
     kiriNear found[2];  /* nearest to the probe; of a fold: in front, and behind */
     double least[2];    /* m^2: of their distance; or of half of the edge */
+    double gap;         /* m^2: of the distance to another layer, whichever frames carry it */
+    kiriNear layer;     /* nearest place of another layer */
     int32_t edge, a, b; /* half-edge and its ends */
     int32_t first;      /* index of its first touch */
     bool ok;
@@ -598,26 +607,35 @@ static double LookAtPlace(void* context, int32_t triangle)
     kiriNear one = search->found[0];
     bool isFold = search->body == search->other;
     const int32_t* v = kiriSurface_Triangle(&search->other->sheet->seen.surface, triangle);
+    double most = kiriMax(kiriMax(search->least[0], search->least[1]), search->gap);
     if (isFold && (v[0] == one.vertex || v[1] == one.vertex || v[2] == one.vertex)) {
-        return kiriMax(search->least[0], search->least[1]);
+        return most;
     }
-    double squared = Measure(&one, search->world->pairs.bodies.data, triangle,
-                             kiriMax(search->least[0], search->least[1]));
-    double across = one.height * one.height;
+    double squared = Measure(&one, search->world->pairs.bodies.data, triangle, most);
+    double across = one.height * one.height, rest = 0.0;
     int side = isFold && !(one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0);
     bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
+    if (isFold && squared <= most) {
+        rest = DistanceAtRest(search->body->sheet, &one);
+        double behind = (OPEN - sqrt(squared) / rest) / PASSING;
+        double gap = behind >= 1.0 ? squared : behind > 0.0 ? squared / (behind * behind) : HUGE_VAL;
+        if (gap < search->gap || (gap == search->gap && triangle < search->layer.triangle)) {
+            search->gap = gap;
+            search->layer = one;
+        }
+    }
     if (squared < search->least[side] || isFirst) {
         bool isEdge = one.share[0] <= 0.0 || one.share[1] <= 0.0 || one.share[2] <= 0.0;
         double aslant = isEdge && squared > across ? sqrt((squared - across) / across) / STEEP : 0.0;
         if (isFold) { /* less beside the border, and where a neighbor is nearer */
-            one.kept = FoldDistance(search->body->sheet, &one, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
+            one.kept = FoldDistance(search->body->sheet, &one, rest, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
         }
         if (one.kept > 0.0) {
             search->least[side] = squared;
             search->found[side] = one;
         }
     }
-    return kiriMax(search->least[0], search->least[1]);
+    return kiriMax(kiriMax(search->least[0], search->least[1]), search->gap);
 }
 
 static void MarkFold(kiriSheetData* sheet, const kiriNear* near, int layer)
@@ -628,6 +646,64 @@ static void MarkFold(kiriSheetData* sheet, const kiriNear* near, int layer)
     sheet->probes.marks.data[near->vertex] |= (uint8_t)(KIRI_FOLD_NEAR | place << layer);
     KIRI_TIMES(k, 3) {
         sheet->probes.marks.data[corners[k]] |= near->share[k] > 0.0 ? KIRI_FOLD_NEAR : 0;
+    }
+}
+
+#define ROOM_KEPT 0.5    /* of the distance that layers keep: offsets end before */
+#define ROOM_STEP 0.25   /* of the distance that layers keep: an offset gets longer by that in a tick, */
+#define ROOM_GROWTH 1.25 /* and by this factor */
+
+/* Returns the longest offset of a probe in the detail layer after the tick, m, if no layer is near. */
+static double WidestRoom(const kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriDetail* detail = &sheet->seen.surface.detail;
+    kiriVec3 offset = { 0.0, 0.0, 0.0 };
+    if (detail->sweeps > 0) {
+        KIRI_ASSERT(3 * vertex < detail->offsets.count);
+        offset = kiriVec3_Load(detail->offsets.data + 3 * vertex);
+    }
+    return ROOM_STEP * sheet->settings.foldThickness + ROOM_GROWTH * kiriVec3_Length(offset);
+}
+
+/* Limits the offset to half of the gap to another layer, as it will be after the tick. */
+static void LimitRoom(const Search* search, int32_t vertex, double widest, double dt)
+{
+    kiriSheetData* sheet = search->body->sheet;
+    const kiriSurface* surface = &sheet->seen.surface;
+    double room = widest;
+    KIRI_ASSERT_HAS(sheet->probes.rooms, vertex);
+    if (search->layer.triangle != KIRI_NONE) {
+        kiriPlace3 place = TrianglePlace(sheet, search->layer.triangle, search->layer.share);
+        kiriVec3 off = kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriSurface_Blend(surface, place.vertex, place.share));
+        kiriVec3 speed = kiriVec3_Sub(PlaceVelocity(&place), kiriProbe_Velocity(sheet, vertex));
+        double closing = dt * kiriMax(kiriVec3_Dot(speed, kiriVec3_Normalize(off)), 0.0);
+        double left = sqrt(search->gap) - closing - ROOM_KEPT * sheet->settings.foldThickness;
+        room = kiriClamp(0.5 * left, 0.0, widest);
+    }
+    sheet->probes.rooms.data[vertex] = (float)room;
+}
+
+/* Gives vertices that are not probes the least room of their neighbors. From here on marks are rounds of that. */
+static void SpreadRooms(kiriSheetData* sheet)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    uint8_t* marks = sheet->probes.marks.data;
+    float* rooms = sheet->probes.rooms.data;
+    KIRI_EACH(uint8_t, mark, sheet->probes.marks) {
+        *mark = (*mark & KIRI_FOLD_PROBE) != 0;
+    }
+    bool isSpread = surface->detail.sweeps > 0;
+    for (uint8_t round = 1; isSpread && round < UINT8_MAX; ++round) {
+        isSpread = false;
+        KIRI_TIMES(h, 3 * surface->triangleCount) {
+            int32_t a = surface->indices.data[h], b = surface->indices.data[h % 3 == 2 ? h - 2 : h + 1];
+            int32_t from = marks[a] == round ? a : b, to = from == a ? b : a;
+            if (marks[from] == round && (marks[to] == 0 || marks[to] > round)) {
+                rooms[to] = kiriMin(rooms[from], rooms[to]);
+                marks[to] = (uint8_t)(round + 1);
+                isSpread = true;
+            }
+        }
     }
 }
 
@@ -658,11 +734,19 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         search.found[0] = search.found[1] = none;
         search.least[0] = own * own;
         search.least[1] = isFold ? own * own : 0.0;
+        double widest = isFold ? WidestRoom(a->sheet, none.vertex) : 0.0;
+        double wide = isFold ? 2.0 * widest + ROOM_KEPT * a->sheet->settings.foldThickness : 0.0;
+        search.gap = wide * wide;
+        search.layer = none;
         if (isFold) {
             search.ahead = kiriVertex_SkinNormal(a->sheet, none.vertex);
             probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
         }
-        kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, own * own, LookAtPlace, &search);
+        kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, kiriMax(own * own, search.gap),
+                           LookAtPlace, &search);
+        if (isFold) {
+            LimitRoom(&search, none.vertex, widest, dt);
+        }
         KIRI_TIMES_WHILE(ok, k, 2) {
             const kiriNear* near = &search.found[k];
             if (near->triangle != KIRI_NONE && (isFold || !IsBeside(near, bodies, near->kept, search.least[k]))) {
@@ -906,7 +990,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     near.vertex = *part < 0.5 ? search->a : search->b;
     touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)search->a, (uint64_t)search->b, (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
-    touch.distance = FoldDistance(sheet, &near, 0.0);
+    touch.distance = FoldDistance(sheet, &near, DistanceAtRest(sheet, &near), 0.0);
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
         kiriPairs* pairs = &search->world->pairs;
         search->ok = search->ok && kiriArray_Push(&search->world->memory, &pairs->touches, touch);
@@ -982,11 +1066,14 @@ static bool BeginFolds(kiriSheetData* sheet)
         return true;
     }
     if (!kiriProbes_Update(sheet) || !UpdateBounds(sheet) ||
-        !kiriArray_Resize(sheet->memory, &sheet->probes.marks, sheet->probes.vertexPiece.count)) {
+        !kiriArrays_Resize(sheet->memory, sheet->probes.vertexPiece.count, &sheet->probes.marks, &sheet->probes.rooms)) {
         return false;
     }
     KIRI_ASSERT(sheet->probes.marks.count == sheet->seen.surface.vertexCount);
     memset(sheet->probes.marks.data, 0, sheet->probes.marks.count);
+    KIRI_EACH(float, room, sheet->probes.rooms) {
+        *room = HUGE_VALF;
+    }
     kiriSurface_NeedNormals(&sheet->seen.surface);
     return true;
 }
@@ -1007,6 +1094,9 @@ static bool TouchFolds(kiriWorld* world, double dt)
                 int32_t first = world->pairs.nears.count;
                 ok = !kiriPiece_Folds(sheet, p) || (FindNears(world, body + p, body + p, reach, dt) &&
                                                     TouchTangles(&search) && TouchLayers(&search, first, dt));
+            }
+            if (ok && sheet->probes.folds) {
+                SpreadRooms(sheet);
             }
         }
     }
