@@ -300,6 +300,24 @@ static void ChooseVertices(const kiriMeeting* meeting)
     }
 }
 
+/* Returns the part of a way after which it goes away from the obstacle, and the nearest place there. The plane of a later place
+   may have the start below, and would hold what only passes by. */
+static double PassBy(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 way, kiriNearest* nearest)
+{
+    enum { HALVINGS = 12 };
+    double low = 0.0, high = 1.0;
+    KIRI_TIMES(halving, HALVINGS) {
+        double middle = 0.5 * (low + high);
+        kiriVec3 at = kiriVec3_AddScaled(from, middle, way);
+        *nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape, at, meeting->across);
+        bool goesAway = kiriVec3_Dot(nearest->normal, way) > 0.0;
+        low = goesAway ? low : middle;
+        high = goesAway ? middle : high;
+    }
+    *nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape, kiriVec3_AddScaled(from, low, way), meeting->across);
+    return low;
+}
+
 /* Makes the touch of a vertex: the plane where it enters the obstacle, or the nearest one. Returns false if none. */
 static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* touch)
 {
@@ -314,6 +332,12 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     }
     kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, velocity));
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
+    if (share >= 1.0 && kiriVec3_Dot(nearest.normal, way) > 0.0) {
+        share = PassBy(meeting, from, way, &nearest);
+        if (nearest.distance > meeting->near) {
+            return false;
+        }
+    }
     if (share >= 1.0 && nearest.distance > meeting->near) {
         return false;
     }
