@@ -300,8 +300,8 @@ static void ChooseVertices(const kiriMeeting* meeting)
     }
 }
 
-/* Returns the part of a way after which it goes away from the obstacle, and the nearest place there. The plane of a later place
-   may have the start below, and would hold what only passes by. */
+/* Returns the part of a way after which it goes away from the obstacle, and the nearest place there. A plane of a later place may
+   have the start below it, and would push what only passes by. */
 static double PassBy(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 way, kiriNearest* nearest)
 {
     enum { HALVINGS = 12 };
@@ -332,13 +332,11 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     }
     kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, velocity));
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
-    if (share >= 1.0 && kiriVec3_Dot(nearest.normal, way) > 0.0) {
+    bool enters = share < 1.0;
+    if (share > 0.0 && kiriVec3_Dot(nearest.normal, way) > 0.0) {
         share = PassBy(meeting, from, way, &nearest);
-        if (nearest.distance > meeting->near) {
-            return false;
-        }
     }
-    if (share >= 1.0 && nearest.distance > meeting->near) {
+    if (!enters && nearest.distance > meeting->near) {
         return false;
     }
     LeaveAlong(meeting, vertex, from, &nearest);
@@ -347,6 +345,7 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
                    meeting->gap, touch)) {
         return false;
     }
+    KIRI_ASSERT(!(share > 0.0) || kiriVec3_Dot(touch->normal, x) > touch->offset - 0.01 * meeting->gap);
     SetPlace(touch, &vertex, (const double[1]){ 1.0 }, 1);
     touch->key = MakeKey(meeting, false, (uint32_t)vertex);
     return true;
