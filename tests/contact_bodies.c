@@ -107,6 +107,7 @@ static void Tick(kiriWorld* world, Body* body, int32_t substeps)
         body->position[i] += dt * body->velocity[i];
     }
     Turn(body->rotation, body->spin);
+    kiriObstacle_SetPose(world, body->id, body->position, body->rotation); /* depth is measured where it is now */
 }
 
 static double EnergyOf(const kiriWorld* world, kiriSheet sheet, const Body* body)
@@ -175,8 +176,82 @@ static void MeasureFall(const Case* c)
     }
 }
 
+/* Two fingers of 0.1 kg on rails press on a hanging cloth with the same force each, and lift it by 0.5 m once its pins go. */
+static void MeasureGrip(const Case* c, double force)
+{
+    enum { LET_GO = 90, LIFTED = 240, END = 480 };
+    static const float ends[2][2] = { { 0.0f, 0.4f }, { 0.4f, 0.4f } }, held[2] = { 0.2f, 0.36f }, none[3] = { 0.0f, 0.0f, 0.0f };
+    Body fingers[2] = { { .mass = 0.1 }, { .mass = 0.1 } };
+    SCOPED_WORLD(world) = NULL;
+    kiriPin pins[2];
+    kiriSheet sheet;
+    kiriPointState at;
+    kiriWorldDef worldDef = DefaultWorld();
+    kiriSheetDef def = DefaultSheet();
+    char variant[80];
+    float height = -0.04f, before = 0.0f;
+    double pressed = 0.0, slid = 0.0;
+    kiriCreateWorld(&worldDef, &world);
+    def.frameCount = c->frames;
+    def.skinning = c->skinning;
+    def.position[0] = -0.2f;
+    def.position[2] = -0.4f;
+    memcpy(def.axisV, (const float[3]){ 0.0f, 0.0f, 1.0f }, sizeof(def.axisV));
+    kiriCreateRectangle(world, 0.4f, 0.4f, CELLS, CELLS, &def, &sheet);
+    for (int i = 0; i < 2; ++i) {
+        kiriPinDef pin = DefaultPin();
+        kiriObstacleDef finger = DefaultObstacle();
+        memcpy(pin.restPoint, ends[i], sizeof(ends[i]));
+        pin.target[0] = ends[i][0] - 0.2f;
+        kiriCreatePin(world, sheet, &pin, &pins[i]);
+        memcpy(finger.size, (const float[3]){ 0.03f, 0.01f, 0.02f }, sizeof(finger.size));
+        finger.type = KIRI_OBSTACLE_BOX;
+        finger.mass = (float)fingers[i].mass;
+        fingers[i].position[1] = i == 0 ? -0.025f : 0.025f;
+        fingers[i].position[2] = height;
+        memcpy(fingers[i].rotation, finger.rotation, sizeof(finger.rotation));
+        kiriCreateObstacle(world, &finger, &fingers[i].id);
+    }
+    for (int tick = 0; tick < END; ++tick) {
+        for (int i = 0; i < 2 && tick == LET_GO; ++i) {
+            kiriDestroyPin(world, pins[i]);
+        }
+        height += tick >= LET_GO + 30 && tick < LIFTED ? 0.25f * dt : 0.0f;
+        for (int i = 0; i < 2; ++i) {
+            Body* finger = &fingers[i];
+            finger->velocity[0] = -finger->position[0] / dt; /* motors hold it on its rail */
+            finger->velocity[1] += (float)((i == 0 ? force : -force) / finger->mass) * dt;
+            finger->velocity[2] = (height - finger->position[2]) / dt;
+            kiriObstacle_SetPose(world, finger->id, finger->position, finger->rotation);
+            kiriObstacle_SetVelocity(world, finger->id, finger->velocity, none);
+        }
+        kiriWorld_Tick(world, dt, c->substeps);
+        for (int i = 0; i < 2; ++i) {
+            kiriObstacleState state;
+            kiriObstacle_GetState(world, fingers[i].id, &state);
+            for (int k = 0; k < 3; ++k) {
+                fingers[i].velocity[k] += (float)(state.impulse[k] / fingers[i].mass);
+                fingers[i].position[k] += dt * fingers[i].velocity[k];
+            }
+            pressed += tick >= LIFTED ? (i == 0 ? -0.5 : 0.5) * state.impulse[1] / (double)(dt * (END - LIFTED)) : 0.0;
+        }
+        kiriSheet_GetPoint(world, sheet, held, &at);
+        before = tick == LET_GO - 1 ? at.position[2] - fingers[0].position[2] : before;
+        slid = tick >= LET_GO ? fmax(slid, (double)fabsf(at.position[2] - fingers[0].position[2] - before)) : slid;
+    }
+    snprintf(variant, sizeof variant, "%g N, %d fr, %d sub, %s", force, (int)c->frames, (int)c->substeps,
+             c->skinning == KIRI_SKINNING_SMOOTH ? "smooth" : "linear");
+    Contact_Line("grip: force", variant, pressed / force, 1.0, 0.02, "of 1");
+    Contact_Limit("grip: slides", variant, 1e3 * slid, 10.0, "mm");
+}
+
 void Contact_MeasureBodies(void)
 {
+    for (int i = 0; i < 4 * 3; ++i) {
+        MeasureGrip(&(Case){ .frames = i % 2 ? 100 : 25, .substeps = i / 2 % 2 ? 8 : 2,
+                             .skinning = i % 3 ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH },
+                    (const double[3]){ 2.0, 3.0, 5.0 }[i / 4]);
+    }
     static const double ratios[] = { 1.0, 10.0, 100.0, 1000.0 };
     static const float speeds[] = { 5.0f, 15.0f, 30.0f, 60.0f, 100.0f };
     for (int i = 0; i < 2 * 4 * 2 * 4; ++i) { /* the settings of the solver change by turns */

@@ -646,6 +646,42 @@ TEST(HeavyArmsStayOutOfCurtains)
     }
 }
 
+/* Two light fingers press on a cloth that hangs: it stays between them, and each feels the force of the other's motor. */
+TEST(FingersHoldACloth)
+{
+    START_HOST(host);
+    kiriSheetDef cloth = DefaultSheet();
+    double felt = 0.0;
+    cloth.axisV[1] = 0.0f;
+    cloth.axisV[2] = 1.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &cloth, 0.4f, 0.4f, 40, 40);
+    Host_Pin(&host, sheet, 0.0f, 0.4f, 0.0f, 0.0f, 0.4f);
+    Host_Pin(&host, sheet, 0.4f, 0.4f, 0.4f, 0.0f, 0.4f);
+    kiriObstacle fingers[2];
+    kiriObstacleDef defs[2] = { DefOf(KIRI_OBSTACLE_BOX), DefOf(KIRI_OBSTACLE_BOX) };
+    for (int i = 0; i < 2; ++i) {
+        memcpy(defs[i].size, (const float[3]){ 0.03f, 0.01f, 0.02f }, sizeof(defs[i].size));
+        memcpy(defs[i].position, (const float[3]){ 0.2f, i == 0 ? -0.025f : 0.025f, 0.36f }, sizeof(defs[i].position));
+        defs[i].mass = 0.1f;
+        fingers[i] = Add(&host, &defs[i]);
+    }
+    for (int tick = 0; tick < 120; ++tick) {
+        for (int i = 0; i < 2; ++i) {
+            defs[i].velocity[1] += (i == 0 ? 5.0f : -5.0f) / defs[i].mass * dt;
+            OK(kiriObstacle_SetPose(host.world, fingers[i], defs[i].position, defs[i].rotation));
+            OK(kiriObstacle_SetVelocity(host.world, fingers[i], defs[i].velocity, defs[i].angularVelocity));
+        }
+        OK(Host_Tick(&host, dt, 2));
+        for (int i = 0; i < 2; ++i) {
+            double impulse = World_ObstacleState(host.world, fingers[i]).impulse[1];
+            defs[i].velocity[1] += (float)impulse / defs[i].mass;
+            defs[i].position[1] += dt * defs[i].velocity[1];
+            felt += tick >= 60 ? (i == 0 ? -0.5 : 0.5) * impulse : 0.0;
+        }
+    }
+    assert_true(fabs(felt / 5.0 - 1.0) < 0.01 && defs[0].position[1] < defs[1].position[1]);
+}
+
 /* A ball without friction gets no torque, and pushes the same with any spin. */
 TEST(SmoothBallsFeelNoTorque)
 {

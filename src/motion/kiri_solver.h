@@ -22,6 +22,7 @@ typedef struct kiriYieldRow {
     kiriMat3 inverseInertia; /* 1/(kg m^2), world, about the centre; zero: it does not turn */
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
     kiriWrench impulse;      /* N s, N m s about the centre: given by sheets in this tick; a step adds to it */
+    kiriVec3 lent;           /* N s: the part of its momentum that it gets in equal parts at the substeps of the tick */
     int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass */
     int32_t held;            /* scratch: contacts that may be held up after the systems of the current step */
     /* Scratch, N s m/s, see kiri_contact_row.c: sums of push times speed along it, before and after the pushes act, and

@@ -401,9 +401,9 @@ KIRI_TABLE(ObstacleDataTable, kiriObstacleData, {
     KIRI_REALS(pushSpeed),
     KIRI_RUN(4, groups),
     KIRI_REALS(drift),
+    KIRI_REALS(was, impulse),
     KIRI_UNHASHED,
     KIRI_RUN(4, id),
-    KIRI_REALS(impulse),
     KIRI_WITHIN(0, INT32_MAX, contacts),
     KIRI_REALS(lower, upper),
 })

@@ -87,6 +87,7 @@ typedef struct kiriObstacleData {
     double pushSpeed;        /* m/s */
     uint32_t groups;
 
+    kiriVec3 was;     /* m/s: velocity of the center of mass in the last tick, before sheets changed it */
     kiriWrench
         impulse;      /* N s, N m s about the center of mass: from sheets and pins in this tick, or the last one */
     int32_t contacts; /* count in the same tick */

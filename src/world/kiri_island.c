@@ -330,6 +330,10 @@ static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, i
     KIRI_TIMES(s, substeps) {
         int64_t work[KIRI_MOST_ROUNDS] = { 0 };
         KIRI_EACH_OF_CLUSTER(i, islands, cluster) {
+            KIRI_EACH(kiriYieldRow, row, world->sheets.data[i]->touches.yields) {
+                double share = (s > 0 ? 1.0 : 1.0 - substeps) / substeps;
+                row->impulse.force = kiriVec3_AddScaled(row->impulse.force, share, row->lent);
+            }
             if (!world->sheets.data[i]->rest.asleep) {
                 kiriFollow_Step(world->sheets.data[i], s, substeps, dt / substeps);
             }

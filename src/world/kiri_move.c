@@ -274,6 +274,20 @@ static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search,
     return ok;
 }
 
+/* Returns the momentum that the host gave a body since the last tick to make up for what sheets gave it, N s: weight, or what
+   presses on them. Given at once, it would move the body in the first substeps, and sheets would push it back in the last. */
+static kiriVec3 LentTo(const kiriWorld* world, const kiriObstacleData* obstacle)
+{
+    kiriVec3 given = obstacle->impulse.force;
+    KIRI_EACH_OF_WHILE(obstacle->body != 0, kiriObstacleData, other, world->obstacles) {
+        given = other != obstacle && other->body == obstacle->body ? kiriVec3_Add(given, other->impulse.force) : given;
+    }
+    kiriVec3 now = kiriObstacle_VelocityAt(obstacle, kiriObstacle_CenterOfMass(obstacle));
+    double size = kiriVec3_Dot(given, given);
+    double back = size - obstacle->mass * kiriVec3_Dot(kiriVec3_Sub(now, obstacle->was), given);
+    return kiriVec3_Scale(size > 0.0 ? -kiriClamp(back / size, 0.0, 1.0) : 0.0, given);
+}
+
 static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriSheetData* sheet, const Around* around)
 {
     int32_t at = 0;
@@ -283,6 +297,7 @@ static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriShe
         if (yield == KIRI_NONE) { /* one row for each body */
             kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
             row.number = NumberOf(obstacle);
+            row.lent = kiriObstacle_IsMovable(obstacle) ? LentTo(world, obstacle) : row.lent;
             yield = kiriTouches_AddYield(sheet, &row);
         }
         ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
@@ -402,6 +417,7 @@ void kiriObstacles_Begin(kiriWorld* world)
 {
     KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
         KIRI_CLEAR(&obstacle->impulse);
+        obstacle->was = kiriObstacle_VelocityAt(obstacle, kiriObstacle_CenterOfMass(obstacle));
         obstacle->contacts = 0;
     }
 }
