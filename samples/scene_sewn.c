@@ -293,7 +293,7 @@ static void DentCan(Scene* scene)
     if (tick == GLUE) {
         Sew(scene, scene->sheet, scene->sheet, ends[0][0], ends[1][0], 2, 0.0f, 0.0f, 1e3f);
     }
-    float speed = 60.0f * scene->type->size * (0.9f * out - 0.55f * in);
+    float speed = 60.0f * scene->type->size * (0.9f * out - 0.58f * in);
     kiriObstacle_SetVelocity(scene->world, scene->bodyIds[0], (float[]){ 0.0f, speed, 0.0f }, (float[]){ 0.0f, 0.0f, 0.0f });
 }
 

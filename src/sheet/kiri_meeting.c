@@ -304,9 +304,9 @@ static void ChooseVertices(const kiriMeeting* meeting)
    have the start below it, and would push what only passes by. */
 static double PassBy(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 way, kiriNearest* nearest)
 {
-    enum { HALVINGS = 12 };
+    enum { BISECTIONS = 12 };
     double low = 0.0, high = 1.0;
-    KIRI_TIMES(halving, HALVINGS) {
+    KIRI_TIMES(bisection, BISECTIONS) {
         double middle = 0.5 * (low + high);
         kiriVec3 at = kiriVec3_AddScaled(from, middle, way);
         *nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape, at, meeting->across);
