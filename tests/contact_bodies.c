@@ -194,8 +194,7 @@ static void MeasureGrip(const Case* c, double force)
     kiriCreateWorld(&worldDef, &world);
     def.frameCount = c->frames;
     def.skinning = c->skinning;
-    def.position[0] = -0.2f;
-    def.position[2] = -0.4f;
+    memcpy(def.position, (const float[3]){ -0.2f, 0.0f, -0.4f }, sizeof(def.position));
     memcpy(def.axisV, (const float[3]){ 0.0f, 0.0f, 1.0f }, sizeof(def.axisV));
     kiriCreateRectangle(world, 0.4f, 0.4f, CELLS, CELLS, &def, &sheet);
     for (int i = 0; i < 2; ++i) {

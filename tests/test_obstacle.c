@@ -652,8 +652,7 @@ TEST(FingersHoldACloth)
     START_HOST(host);
     kiriSheetDef cloth = DefaultSheet();
     double felt = 0.0;
-    cloth.axisV[1] = 0.0f;
-    cloth.axisV[2] = 1.0f;
+    memcpy(cloth.axisV, (const float[3]){ 0.0f, 0.0f, 1.0f }, sizeof(cloth.axisV));
     kiriSheet sheet = Host_AddRectangle(&host, &cloth, 0.4f, 0.4f, 40, 40);
     Host_Pin(&host, sheet, 0.0f, 0.4f, 0.0f, 0.0f, 0.4f);
     Host_Pin(&host, sheet, 0.4f, 0.4f, 0.4f, 0.0f, 0.4f);
