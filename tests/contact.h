@@ -9,7 +9,7 @@
 /* One line of the table. `law` is what should come out; the line is marked where |value - law| > tolerance. */
 void Contact_Line(const char* name, const char* variant, double value, double law, double tolerance, const char* unit);
 
-/* Where there is no law, only a limit: marked where value > limit. HUGE_VAL: to compare with, not counted. */
+/* The same for a limit: the line is marked where value > limit. A line with the limit HUGE_VAL is not counted. */
 void Contact_Limit(const char* name, const char* variant, double value, double limit, const char* unit);
 
 /* Is this group of cases asked for? All are, where none is named. */

@@ -266,8 +266,8 @@ static void PrepareContact(const kiriSolver* solver, const kiriSystem* system, c
 
 #define FAR_ROUNDING 1e-9 /* relative to the distance from the origin */
 
-/* Finds whether the contact is far at the start of the step. Only one that pushed nothing in the last step may be: all else
-   that it would store is then zero. */
+/* Finds whether the contact is far at the start of the step. A contact that pushed in the last step is never far: it has forces
+   to go on from. */
 static void BeginFar(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* all, int32_t count,
                      kiriContactStep* step)
 {

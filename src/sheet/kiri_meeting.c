@@ -305,16 +305,15 @@ static void ChooseVertices(const kiriMeeting* meeting)
 static double PassBy(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 way, kiriNearest* nearest)
 {
     enum { BISECTIONS = 12 };
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
     double low = 0.0, high = 1.0;
     KIRI_TIMES(bisection, BISECTIONS) {
         double middle = 0.5 * (low + high);
         kiriVec3 at = kiriVec3_AddScaled(from, middle, way);
-        *nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape, at, meeting->across);
-        bool goesAway = kiriVec3_Dot(nearest->normal, way) > 0.0;
-        low = goesAway ? low : middle;
-        high = goesAway ? middle : high;
+        *nearest = kiriObstacleShape_Nearest(shape, at, meeting->across);
+        *(kiriVec3_Dot(nearest->normal, way) > 0.0 ? &high : &low) = middle;
     }
-    *nearest = kiriObstacleShape_Nearest(&meeting->obstacle->shape, kiriVec3_AddScaled(from, low, way), meeting->across);
+    *nearest = kiriObstacleShape_Nearest(shape, kiriVec3_AddScaled(from, low, way), meeting->across);
     return low;
 }
 
@@ -333,6 +332,9 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
     kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, velocity));
     double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
     bool enters = share < 1.0;
+    if (!enters && nearest.distance > meeting->near + kiriVec3_Length(way)) {
+        return false; /* no place of the way is near */
+    }
     if (share > 0.0 && kiriVec3_Dot(nearest.normal, way) > 0.0) {
         share = PassBy(meeting, from, way, &nearest);
     }

@@ -10,7 +10,7 @@
 #define PACE 0.5        /* spacings in a tick, at most */
 #define LEAST_PACE 0.05 /* spacings, where the pace is lower: each step shakes the sheet */
 #define SLOW_PACE 0.02  /* spacings, where a longer step takes all tension away */
-#define SLACK 1.5       /* of the step after which the tension is as the tear takes it: legs that are bent are as soft again */
+#define TO_SLACK 1.5    /* of the step after which the tension is as the tear takes it: legs that are bent are as soft again */
 #define LEAST_STEP 4.0  /* snap distances */
 #define ROUNDED 4.0      /* lattice steps: a tip this near to a lip is on it */
 #define LINE_REACH 2.0  /* snap distances: a tip this near to a tear line is on it */
@@ -539,7 +539,7 @@ kiriVec2 kiriTear_Next(const kiriSheetData* sheet, const kiriTearTip* tip, doubl
     if (!(way.free > way.taken)) {
         return at;
     }
-    double surplus = 1.0 - way.taken / way.free, slack = SLACK * surplus * Tension(sheet, piece) / way.taken;
+    double surplus = 1.0 - way.taken / way.free, slack = TO_SLACK * surplus * Tension(sheet, piece) / way.taken;
     double pace = kiriMin(spacing * (LEAST_PACE + PACE * surplus), kiriMax(slack, SLOW_PACE * spacing));
     double step = kiriMin(kiriMin(pace, way.most), most);
     /* Legs that are taut pull along the sheet: their stress grows with the square of the release. */
