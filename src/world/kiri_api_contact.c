@@ -274,7 +274,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     kiriPinData made = { .type = KIRI_PIN_POINT, .rotation = KIRI_AXES, .lastRotation = KIRI_AXES };
     bool inRange = kiriSheet_ToLattice(data, def->restPoint, &made.at);
     int32_t frame = inRange ? kiriOwner_At(data, made.at) : KIRI_NONE;
-    KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
+    KIRI_CHECK_INSIDE(frame != KIRI_NONE, def->restPoint);
     made.to = made.at;
     made.target = made.lastTarget = kiriVec3_Load(def->target);
     made.anchor.obstacle = def->obstacle;

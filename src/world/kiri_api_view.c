@@ -233,8 +233,7 @@ kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const flo
     KIRI_CHECK_FLOATS(restPoint, 2);
     kiriLatticePoint at;
     kiriPointPlace place;
-    KIRI_CHECK(kiriSheet_ToLattice(found, restPoint, &at) && kiriPoint_Find(found, at, &place),
-               "restPoint lies outside the material");
+    KIRI_CHECK_INSIDE(kiriSheet_ToLattice(found, restPoint, &at) && kiriPoint_Find(found, at, &place), restPoint);
     KIRI_ASSERT(place.triangle >= 0 && place.triangle < found->mesh.triangles.count);
     int32_t frame = kiriOwner_At(found, at);
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies in a piece that is destroyed");
@@ -257,7 +256,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     kiriLatticePoint at;
     bool inRange = kiriSheet_ToLattice(found, restPoint, &at);
     int32_t cell = inRange ? kiriGrid_CellAt(&found->grid, at) : KIRI_NONE;
-    KIRI_CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
+    KIRI_CHECK_INSIDE(cell != KIRI_NONE, restPoint);
     kiriPointWeights point = { 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     kiriCall_BeginCallbacks(world);

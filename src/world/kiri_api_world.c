@@ -503,7 +503,7 @@ kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float r
     kiriSheetData* data = call->sheet;
     kiriLatticePoint at;
     int32_t frame = kiriSheet_ToLattice(data, restPoint, &at) ? kiriOwner_At(data, at) : KIRI_NONE;
-    KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
+    KIRI_CHECK_INSIDE(frame != KIRI_NONE, restPoint);
     AddLoad(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
     WakeFor(data, frame, force, torque);
     KIRI_RETURN(KIRI_OK);
@@ -607,8 +607,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     kiriSheetData* data = call->sheet;
     kiriLatticePoint at;
     kiriPointPlace place;
-    KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
-               "restPoint lies outside the material");
+    KIRI_CHECK_INSIDE(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place), restPoint);
     kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(data, &place), kiriPoint_Blend(data, &place).x);
     KIRI_CHECK(FitsImpulse(data, &place, off, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
     PushFrames(data, &place, off, kiriVec3_Load(impulse), KIRI_NONE, data->frames.data);

@@ -488,6 +488,23 @@ kiriResult kiriCall_RefuseNumber(const kiriWorld* world, kiriCall* call, const c
     return kiriCall_End(world, call, function, KIRI_ERROR_ARGUMENT, fault.line);
 }
 
+kiriResult kiriCall_RefuseId(const kiriWorld* world, kiriCall* call, const char* function, const char* kind,
+                             uint32_t id)
+{
+    kiriFault fault;
+    KIRI_SAY(&fault, "%s is %lld: there is no %s with this id", kind, (long long)id, kind);
+    return kiriCall_End(world, call, function, KIRI_ERROR_ID, fault.line);
+}
+
+kiriResult kiriCall_RefusePoint(const kiriWorld* world, kiriCall* call, const char* function, const float restPoint[2])
+{
+    kiriFault fault;
+    char x[NUMBER_BYTES], y[NUMBER_BYTES];
+    KIRI_SAY(&fault, "restPoint (%s, %s) lies outside the material", WriteNumber(x, restPoint[0]),
+             WriteNumber(y, restPoint[1]));
+    return kiriCall_End(world, call, function, KIRI_ERROR_ARGUMENT, fault.line);
+}
+
 static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t count, kiriFault* fault)
 {
     bool areFloats = value->form == KIRI_FORM_FLOATS || value->form == KIRI_FORM_FLOATS_AT;

@@ -230,6 +230,11 @@ kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* func
 kiriResult kiriCall_RefuseNumber(const kiriWorld* world, kiriCall* call, const char* function, const char* name,
                                  double number, double low, double high);
 
+/* The same for an id that is not one of this kind, and for a rest point outside the material. */
+kiriResult kiriCall_RefuseId(const kiriWorld* world, kiriCall* call, const char* function, const char* kind,
+                             uint32_t id);
+kiriResult kiriCall_RefusePoint(const kiriWorld* world, kiriCall* call, const char* function, const float restPoint[2]);
+
 /* The host's log gets the line. */
 void kiriWorld_Log(const kiriWorld* world, const char* line);
 
@@ -284,13 +289,23 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 #define KIRI_CHECK_OUT(pointer) KIRI_CHECK((pointer) != NULL, #pointer " is null")
 #define KIRI_CHECK_LIST(items)                                                                                         \
     KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && (items) != NULL)), "count or " #items " is null")
+#define KIRI_CHECK_INSIDE(condition, restPoint)                                                                        \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            return kiriCall_RefusePoint(world, call, __func__, restPoint);                                             \
+        }                                                                                                              \
+    } while (0)
 #define KIRI_CHECK_FLOATS(values, count)                                                                               \
     KIRI_CHECK((values) != NULL && kiriCall_AreFinite(values, count), #values " is null or not finite")
 
 /* Declares `slot` of an id; and `found`: the sheet, or the sheet of the frame or pin. */
 #define KIRI_FIND_SLOT(kind)                                                                                           \
     const kiriSlot* slot = kiriPool_Find(&world->kind##Ids, kind);                                                     \
-    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id")
+    do {                                                                                                               \
+        if (slot == NULL) {                                                                                            \
+            return kiriCall_RefuseId(world, call, __func__, #kind, kind);                                              \
+        }                                                                                                              \
+    } while (0)
 #define KIRI_FIND(kind)                                                                                                \
     KIRI_FIND_SLOT(kind);                                                                                              \
     KIRI_ASSERT(slot->owner != NULL && slot->index >= 0);                                                              \
