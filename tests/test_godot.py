@@ -30,7 +30,7 @@ EMPTY = {3: 'config_version=4\n\n[rendering]\n\nquality/driver/driver_name="GLES
          4: 'config_version=5\n\n[rendering]\n\nrenderer/rendering_method="gl_compatibility"\n'}
 # compatibility_minimum of kiri.gdextension.
 OLDEST = 2
-LINE = "KiriSheet.create_pin: rest_point lies outside the material (ERROR_ARGUMENT)"
+LINE = "KiriSheet.create_pin: rest_point (5, 5) lies outside the material (ERROR_ARGUMENT)"
 MARKS = {3: [f"ERROR: kiri: {LINE}"], 4: [f"ERROR: {LINE}", "typed calls good"]}
 
 
