@@ -278,6 +278,12 @@ static inline kiriObstacle World_AddObstacle(kiriWorld* world, const kiriObstacl
     return made;
 }
 
+static inline kiriObstacle World_AddFloor(kiriWorld* world)
+{
+    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
+    return World_AddObstacle(world, &def);
+}
+
 static inline kiriSeam World_AddSeam(kiriWorld* world, const kiriSeamDef* def)
 {
     kiriSeam made;

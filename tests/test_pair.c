@@ -325,8 +325,7 @@ static int32_t FoldOnce(int32_t selfContact, int32_t frames)
 {
     kiriPin pins[3];
     START_HOST(host);
-    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
-    World_AddObstacle(host.world, &floorDef);
+    World_AddFloor(host.world);
     kiriSheetDef def = DefaultSheet();
     def.frameCount = frames;
     def.selfContact = selfContact;

@@ -256,12 +256,10 @@ TEST(CreepingFloorWakes)
 static int CrumpleSheet(int32_t skinning, float tilt, double* lowest)
 {
     START_HOST(host);
-    kiriObstacleDef floor = DefaultObstacle();
     kiriSheetDef def = DefaultSheet();
     const float up[3] = { 0.0f, tilt, sqrtf(1.0f - tilt * tilt) };
     int tick = 0;
-    floor.type = KIRI_OBSTACLE_PLANE;
-    World_AddObstacle(host.world, &floor);
+    World_AddFloor(host.world);
     def.gridResolution = 32;
     def.frameCount = def.maxFrames = 25;
     def.skinning = skinning;

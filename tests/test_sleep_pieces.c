@@ -477,8 +477,7 @@ TEST(FloorBearsSleepers)
     def.position[2] = 0.001f;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
-    kiriObstacle floor = World_AddObstacle(host.world, &floorDef);
+    kiriObstacle floor = World_AddFloor(host.world);
     OK(kiriWorld_SetGravity(host.world, down));
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
     for (int k = 0; k < 240; ++k) {
@@ -551,8 +550,7 @@ TEST(PiecesThatTouch)
     def.position[2] = 0.005f;
     START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriObstacleDef floorDef = ObstacleOf(KIRI_OBSTACLE_PLANE);
-    World_AddObstacle(host.world, &floorDef);
+    World_AddFloor(host.world);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {
         for (int k = 0; k < ways[i].ticks; ++k) {
             OK(kiriFrame_SetPieceVelocity(host.world, FrameAt(&host, sheet, 0), ways[i].velocity, noVector));

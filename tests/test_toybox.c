@@ -112,11 +112,9 @@ static double EnergyOf(const Box* box)
 static void PlayBox(uint32_t seed, bool touch)
 {
     Box box = { .seed = 2654435761u * (seed + 1), .touch = touch };
-    kiriObstacleDef floor = DefaultObstacle();
     Host_Start(&box.host);
     box.host.every = 60;
-    floor.type = KIRI_OBSTACLE_PLANE;
-    World_AddObstacle(box.host.world, &floor);
+    World_AddFloor(box.host.world);
     for (int i = 0; i < bodies; ++i) {
         AddBody(&box, i);
     }

@@ -149,9 +149,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     /* The point may gain energy so. A small body of an island would throw the others: it gains less. Crumbs gain none on fixed
        obstacles: they turn far in a step, and flew off a floor at 6 m/s.
        A soft contact that did not push in the last step gains none: no step put energy into it. */
-    bool isCrumb = system->frameCount == 1 && system->frames[0].mass < 4.0 * row->mass;
     bool isLate = IsSoft(row) && !(step->lowered > 0.0) && !(kiriVec3_Dot(row->force, row->normal) > 0.0);
-    bool gains = !isCrumb && !isLate && !kiriContact_IsMutual(step);
+    bool gains = !isLate && !kiriContact_IsMutual(step);
     double out = gains ? kiriMax(depth - step->lowered, 0.0) : 0.0;
     out = kiriMax(kiriMin(out, row->reach), share * out);
     step->out = out;

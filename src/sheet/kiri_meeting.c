@@ -2,9 +2,8 @@
 #include "kiri_piece.h"
 #include "kiri_seen.h"
 
-/* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
-   pushed. So a flat surface keeps its vertices. */
-#define PREFERRED 0.5
+#define PREFERRED 0.5 /* of the contact distance: a vertex must be deeper by this to replace one that pushed */
+enum { PATCHES = 16 }; /* of a frame: bent sheets crumple on a floor, and strips tremble, with 4 */
 
 /* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
 #define SAME_FACE 0.9
@@ -32,7 +31,6 @@ typedef struct kiriMeeting {
     double reach;             /* m: largest distance at which they may touch in the tick */
     double near;              /* m: a point so near is a touch, wherever it goes */
     double square;            /* m: side of a grid square */
-    int32_t squares, columns; /* grid squares along the side of a patch; patches in a row */
     double friction;          /* coefficient of the pair */
     int32_t yield;            /* yield row of the obstacle's body, or KIRI_NONE */
     bool isThinned;           /* one vertex a patch touches; else all vertices */
@@ -187,14 +185,14 @@ static bool IsBoxNear(const void* context, const kiriBox* box)
            kiriObstacleShape_Nearest(shape, local, none).distance < reach;
 }
 
-/* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
-static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
+/* Adds a vertex. Keeps the deepest one on each face of a patch. */
+static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
 {
     int32_t* link = &search->heads.data[near.patch];
     while (*link != KIRI_NONE) {
         kiriNearVertex* chosen = &search->chosen.data[*link];
-        if (chosen->frame == near.frame && kiriVec3_Dot(chosen->normal, near.normal) > SAME_FACE) {
-            if (near.height < chosen->height - margin) {
+        if (kiriVec3_Dot(chosen->normal, near.normal) > SAME_FACE) {
+            if (near.height < chosen->height) {
                 near.next = chosen->next;
                 *chosen = near;
             }
@@ -206,6 +204,30 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margi
     KIRI_NEXT(search->chosen) = near;
 }
 
+/* The patches of a frame are 4 x 4 round its centre of mass: so it rests on points on all sides, however small or narrow its
+   piece is. */
+static int32_t PatchOf(const kiriMeeting* meeting, int32_t f, kiriVec2 from)
+{
+    double inner = 0.25 * sqrt(meeting->sheet->frames.data[f].area);
+    return PATCHES * f + (from.x >= 0.0) + 2 * (from.y >= 0.0) + 4 * (fabs(from.x) > inner) + 8 * (fabs(from.y) > inner);
+}
+
+/* Looks at a vertex near a plane or a body with mass. One far from the centre of its frame counts as deeper, so a flat patch has
+   its corner; and one that had a force, so that vertices of similar depth do not alternate. */
+static void ChooseInPatch(const kiriMeeting* meeting, int32_t vertex, const kiriNearest* nearest)
+{
+    const kiriSheetData* sheet = meeting->sheet;
+    int32_t f = kiriSkin_LeadingFrame(&sheet->vertexSkin, vertex);
+    const kiriFrameData* frame = &sheet->frames.data[f];
+    kiriVec2 from = kiriVec2_Sub(sheet->seen.surface.rest.data[vertex], frame->center);
+    bool pushed = nearest->distance <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
+    bool yields = kiriTouches_CanYield(sheet, meeting->yield); /* the deepest point stops a body with mass */
+    double deeper = pushed + (yields ? 0.0 : kiriVec2_Length(from) / sqrt(frame->area));
+    kiriNearVertex near = { vertex, PatchOf(meeting, f, from), KIRI_NONE, nearest->distance - PREFERRED * meeting->gap * deeper,
+                            nearest->normal };
+    Choose(meeting->search, near);
+}
+
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
@@ -215,28 +237,10 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         return;
     }
     kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
-    if (nearest.distance < meeting->reach && !meeting->isThinned) {
-        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){
-            .vertex = vertex, .height = nearest.distance
-        };
+    if (nearest.distance < meeting->reach && meeting->isThinned) {
+        ChooseInPatch(meeting, vertex, &nearest);
     } else if (nearest.distance < meeting->reach) {
-        /* One that had a force counts as deeper, so that vertices of similar depth do not alternate. */
-        const kiriObstacleSearch* search = meeting->search;
-        bool pushed = nearest.distance <= 2.0 * meeting->gap && search->marks.data[vertex] > search->mark;
-        double height = nearest.distance - (pushed ? PREFERRED * meeting->gap : 0.0);
-        const kiriMeshData* mesh = &meeting->sheet->mesh;
-        int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at);
-        int32_t row = square / mesh->squares.columns / meeting->squares;
-        int32_t column = square % mesh->squares.columns / meeting->squares;
-        kiriNearVertex near = { vertex,
-                                row * meeting->columns + column,
-                                kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
-                                KIRI_NONE,
-                                height,
-                                nearest.normal };
-        bool yields =
-            kiriTouches_CanYield(meeting->sheet, meeting->yield); /* the deepest point stops a body with mass */
-        Choose(meeting->search, near, yields ? 0.0 : PREFERRED * meeting->gap);
+        KIRI_NEXT(meeting->search->chosen) = (kiriNearVertex){ .vertex = vertex, .height = nearest.distance };
     }
 }
 
@@ -774,18 +778,6 @@ static bool TouchCorners(const kiriMeeting* meeting)
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the side of a patch in grid squares. A frame has six unknowns, so only bent surfaces need more points. */
-static int32_t PatchSide(const kiriSheetData* sheet, double square)
-{
-    double patchesAFrame = kiriPieces_AnyFolds(sheet) ? 16.0 : 4.0;
-    double area = 0.0;
-    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
-        area += frame->area;
-    }
-    double side = sqrt(area / (patchesAFrame * sheet->frames.count)) / square;
-    return (int32_t)kiriClamp(side, 1.0, 4096.0);
-}
-
 typedef struct NearBox {
     const kiriObstacleData* obstacle;
     double reach;
@@ -808,9 +800,8 @@ bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sh
 
 bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
-    const kiriSquares* squares = &sheet->mesh.squares;
     int32_t vertices = sheet->seen.surface.vertexCount, triangles = sheet->seen.surface.triangleCount;
-    int32_t patches = squares->columns * squares->rows, oldMarks = search->marks.count, oldHeads = search->heads.count;
+    int32_t patches = PATCHES * sheet->frames.count, oldMarks = search->marks.count, oldHeads = search->heads.count;
     if (!kiriArrays_Reserve(search->memory, triangles, &search->triangles, &search->crossed) ||
         !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
         !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
@@ -857,15 +848,11 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             0.0,
                             0.0,
                             0.0,
-                            1,
-                            1,
                             sqrt(sheet->settings.friction * obstacle->friction),
                             yield,
                             obstacle->shape.type == KIRI_OBSTACLE_PLANE || kiriTouches_CanYield(sheet, yield) };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     meeting.square = sheet->mesh.step * sheet->mesh.squares.side;
-    meeting.squares = PatchSide(sheet, meeting.square);
-    meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
     meeting.near = (1.0 + NEARBY) * meeting.gap + WayUnderLoad(sheet, obstacle, search->dt);
     double turns = kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(&box, obstacle->position);
     speed += kiriVec3_Length(obstacle->velocity) + turns; /* at most: of the obstacle within the sheet's box */

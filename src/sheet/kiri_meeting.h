@@ -13,10 +13,10 @@ KIRI_C_BEGIN
 
 /* A vertex that represents its patch. */
 typedef struct kiriNearVertex {
-    int32_t vertex, patch, frame; /* frame: the one with the largest weight */
-    int32_t next;                 /* next entry of the patch, or KIRI_NONE */
-    double height;                /* m, above the obstacle */
-    kiriVec3 normal;              /* local to the obstacle */
+    int32_t vertex, patch;
+    int32_t next;    /* next entry of the patch, or KIRI_NONE */
+    double height;   /* m, above the obstacle */
+    kiriVec3 normal; /* local to the obstacle */
 } kiriNearVertex;
 
 /* How a piece leaves an obstacle in which it lies deep. */
