@@ -724,19 +724,17 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the derivatives of a vector's move along an axis by a member's unknowns. `local`, `arm`: the vector, in the
-   material and now. isPoint: it moves with the frame's x. */
-static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriContactMember member, kiriVec3 local,
-                        kiriVec3 arm, bool isPoint, kiriVec3 axis, double* J)
+/* Writes the derivatives of a vector's move by a member's unknowns. `local`, `arm`: the vector, in the material and now;
+   `along`: the axis, times the member's weight. isPoint: it moves with the frame's x. */
+static inline void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriVec3 local, kiriVec3 arm, bool isPoint,
+                        kiriVec3 along, double* J)
 {
-    kiriVec3 along = kiriVec3_Scale(member.value, axis), none = { 0.0, 0.0, 0.0 };
-    if (system->frames[member.frame].held) {
-        memset(J, 0, sizeof(double) * (size_t)solver->size);
-    } else if (solver->size == 6 && !system->mechanics.planar) { /* a row is J as it is */
-        kiriVec3_StoreDoubles(J, isPoint ? along : none);
+    kiriVec3 moved = isPoint ? along : kiriVec3_Make(0.0, 0.0, 0.0);
+    if (solver->size == 6 && !system->mechanics.planar) { /* a row is J as it is */
+        kiriVec3_StoreDoubles(J, moved);
         kiriVec3_StoreDoubles(J + 3, kiriVec3_Cross(arm, along));
     } else {
-        kiriFrameRow row = { { isPoint ? along : none, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along),
+        kiriFrameRow row = { { moved, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along),
                                kiriVec3_Scale(local.z, along) } };
         if (!kiriMechanics_IsAffine(&system->mechanics)) {
             row.by[1] = kiriVec3_Cross(arm, along);
@@ -770,10 +768,10 @@ static kiriPointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
                                 int32_t count, const kiriVec3* ways, const kiriPointSprings* at)
 {
-    double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS];
+    double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS], springs[KIRI_POINT_ROWS];
     int32_t frames[KIRI_STITCH_MEMBERS], places[KIRI_STITCH_MEMBERS], different = 0;
     bool isAgain[KIRI_STITCH_MEMBERS];
-    KIRI_ASSERT(count <= KIRI_STITCH_MEMBERS);
+    KIRI_ASSERT(count > 0 && count <= KIRI_STITCH_MEMBERS && at->share > 0.0);
     KIRI_TIMES(m, count) { /* a frame may carry both points */
         places[m] = 0;
         while (places[m] < different && frames[places[m]] != members[m].frame) {
@@ -785,60 +783,27 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     }
     KIRI_TIMES(m, count) {
         const kiriPose* pose = &solver->poses.data[members[m].frame];
-        kiriVec2 off = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
+        const kiriFrameData* frame = &system->frames[members[m].frame];
+        double weight = frame->held ? 0.0 : members[m].value;
+        kiriVec2 off = kiriVec2_Sub(members[m].at, frame->center);
         kiriVec3 local = ways != NULL ? ways[m] : kiriVec3_Make(off.x, off.y, 0.0);
         kiriVec3 arm = ways != NULL ? kiriMat3_Mul(pose->A, local) : kiriPose_Along(pose, off);
         KIRI_TIMES(e, KIRI_POINT_ROWS) {
             double* to = &J[solver->size * (different * e + places[m])];
-            DerivePoint(solver, system, members[m], local, arm, ways == NULL, at->axis[e], isAgain[m] ? own : to);
+            kiriVec3 along = kiriVec3_Scale(weight, at->axis[e]);
+            DerivePoint(solver, system, local, arm, ways == NULL, along, isAgain[m] ? own : to);
             KIRI_TIMES_WHILE(isAgain[m], n, solver->size) {
                 to[n] += own[n];
             }
         }
     }
-    kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
+    KIRI_TIMES(e, KIRI_POINT_ROWS) {
+        springs[e] = at->spring[e] / at->share;
+    }
+    kiriSolver_AddSquares(solver, frames, different, J, springs, at->pull, KIRI_POINT_ROWS);
     if (at->contact != NULL) {
-        kiriRecoil_AddSprings(solver, system, frames, different, J, at->contact, at->share, at);
+        kiriRecoil_AddSprings(solver, system, frames, different, J, at);
     }
-}
-
-/* Adds springs on the members from m on. `share`: sum of their weights. */
-static void AddMembers(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, int32_t m, int32_t count,
-                       double share, kiriPointSprings at)
-{
-    KIRI_TIMES(e, KIRI_POINT_ROWS) {
-        at.spring[e] /= share;
-    }
-    at.contact = step->body != NULL ? step : NULL;
-    at.share = share;
-    kiriSolver_AddPointSprings(solver, system, &step->members[m], count, NULL, &at);
-}
-
-/* The same for rigid frames in space, each of which carries one point: derivatives of a member go to their place at once. */
-static void AddRigidMembers(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, int32_t first,
-                            int32_t count, double share, const kiriPointSprings* at)
-{
-    enum { SIZE = 6 };
-    double J[KIRI_POINT_ROWS * KIRI_CONTACT_MEMBERS * SIZE], springs[KIRI_POINT_ROWS];
-    int32_t frames[KIRI_CONTACT_MEMBERS];
-    KIRI_ASSERT(count <= KIRI_CONTACT_MEMBERS && share > 0.0);
-    KIRI_TIMES(m, count) {
-        const kiriContactMember* member = &step->members[first + m];
-        const kiriFrameData* frame = &system->frames[member->frame];
-        double weight = frame->held ? 0.0 : member->value;
-        kiriVec3 arm = kiriPose_Along(&solver->poses.data[member->frame], kiriVec2_Sub(member->at, frame->center));
-        frames[m] = member->frame;
-        KIRI_TIMES(e, KIRI_POINT_ROWS) {
-            double* to = &J[SIZE * (count * e + m)];
-            kiriVec3 along = kiriVec3_Scale(weight, at->axis[e]);
-            kiriVec3_StoreDoubles(to, along);
-            kiriVec3_StoreDoubles(to + 3, kiriVec3_Cross(arm, along));
-        }
-    }
-    KIRI_TIMES(e, KIRI_POINT_ROWS) {
-        springs[e] = at->spring[e] / share;
-    }
-    kiriSolver_AddSquares(solver, frames, count, J, springs, at->pull, KIRI_POINT_ROWS);
 }
 
 /* A member without a common block gets a separate spring, which its weight scales. All springs together are at least as stiff as
@@ -847,22 +812,15 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const ki
 {
     if (step->isActive) {
         kiriPointSprings at = SpringsOf(step, step->row->normal);
-        bool isRigid = solver->size == 6 && !system->mechanics.planar && !kiriContact_IsMutual(step) && step->body == NULL;
         double share = 1.0; /* of the coupled members: the largest weight is one of them */
+        at.contact = step->body != NULL ? step : NULL;
         KIRI_FROM_TO(m, step->coupledCount, step->memberCount) {
-            KIRI_ASSERT(step->members[m].value > 0.0);
-            share -= step->members[m].value;
-            if (isRigid) {
-                AddRigidMembers(solver, system, step, m, 1, step->members[m].value, &at);
-            } else {
-                AddMembers(solver, system, step, m, 1, step->members[m].value, at);
-            }
+            at.share = step->members[m].value;
+            share -= at.share;
+            kiriSolver_AddPointSprings(solver, system, &step->members[m], 1, NULL, &at);
         }
-        if (isRigid) {
-            AddRigidMembers(solver, system, step, 0, step->coupledCount, share, &at);
-        } else {
-            AddMembers(solver, system, step, 0, step->coupledCount, share, at);
-        }
+        at.share = share;
+        kiriSolver_AddPointSprings(solver, system, step->members, step->coupledCount, NULL, &at);
     }
 }
 
@@ -1451,7 +1409,7 @@ double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system)
 static void AddSprings(kiriSolver* solver, const kiriSystem* system, const kiriStitchRow* row, const kiriVec3* ways,
                        double k, kiriVec3 pull)
 {
-    kiriPointSprings at = { .axis = KIRI_AXES, .spring = { k, k, k }, .pull = { pull.x, pull.y, pull.z } };
+    kiriPointSprings at = { .axis = KIRI_AXES, .share = 1.0, .spring = { k, k, k }, .pull = { pull.x, pull.y, pull.z } };
     kiriSolver_AddPointSprings(solver, system, row->members, CountOf(row), ways, &at);
 }
 

@@ -112,12 +112,13 @@ void kiriRecoil_Clear(kiriSolver* solver, int32_t frameCount)
 }
 
 void kiriRecoil_AddSprings(kiriSolver* solver, const kiriSystem* system, const int32_t* frames, int32_t frameCount,
-                           const double* J, const kiriContactStep* step, double share, const kiriPointSprings* at)
+                           const double* J, const kiriPointSprings* at)
 {
+    const kiriContactStep* step = at->contact;
     kiriRecoil* recoil = &solver->recoil;
     int32_t size = solver->size, count = KIRI_RECOILS * recoil->bodies.count, place = step->body->place;
     int64_t all = (int64_t)size * system->frameCount;
-    KIRI_ASSERT(place >= 0 && place + KIRI_RECOILS <= count && share > 0.0);
+    KIRI_ASSERT(place >= 0 && place + KIRI_RECOILS <= count && at->share > 0.0);
     KIRI_TIMES(e, KIRI_POINT_ROWS) {
         kiriVec3 axis = at->axis[e], round = kiriVec3_Cross(step->arm, axis);
         const kiriMat3* turning = &step->body->turning;
@@ -125,10 +126,10 @@ void kiriRecoil_AddSprings(kiriSolver* solver, const kiriSystem* system, const i
                                            step->body->moving * axis.z, kiriVec3_Dot(turning->u, round),
                                            kiriVec3_Dot(turning->v, round), kiriVec3_Dot(turning->d, round) };
         KIRI_TIMES(n, KIRI_RECOILS) {
-            double along = -share * own[n], spring = at->spring[e] * along;
+            double along = -at->share * own[n], spring = at->spring[e] / at->share * along;
             recoil->pull.data[place + n] += at->pull[e] * along;
             KIRI_TIMES(k, KIRI_RECOILS) {
-                recoil->corner.data[count * (place + n) + place + k] -= spring * share * own[k];
+                recoil->corner.data[count * (place + n) + place + k] -= spring * at->share * own[k];
             }
             KIRI_TIMES(m, frameCount) {
                 double* column = &recoil->border.data[all * (place + n) + (int64_t)size * frames[m]];

@@ -779,7 +779,7 @@ typedef struct kiriPointSprings {
     kiriVec3 axis[KIRI_POINT_ROWS];
     double spring[KIRI_POINT_ROWS], pull[KIRI_POINT_ROWS];
     const kiriContactStep* contact; /* with an obstacle in the system, or null */
-    double share;                   /* of the contact's members, by weight */
+    double share;                   /* sum of the members' weights: springs are divided by it */
 } kiriPointSprings;
 
 /* Adds the springs to the system. A frame may carry both points. ways[]: springs on the blend of these vectors of the
@@ -807,7 +807,7 @@ kiriVec3 kiriRecoil_Move(const kiriContactStep* step);
 void kiriRecoil_Begin(const kiriSolver* solver);
 void kiriRecoil_Clear(kiriSolver* solver, int32_t frameCount);
 void kiriRecoil_AddSprings(kiriSolver* solver, const kiriSystem* system, const int32_t* frames, int32_t frameCount,
-                           const double* J, const kiriContactStep* step, double share, const kiriPointSprings* at);
+                           const double* J, const kiriPointSprings* at);
 bool kiriRecoil_Solve(kiriSolver* solver, int32_t frameCount);
 void kiriRecoil_Try(const kiriSolver* solver, double part);
 void kiriRecoil_Take(const kiriSolver* solver);

@@ -816,7 +816,7 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, const Spring
 {
     kiriVec3 force = ForceOf(spring, kiriSystem_Point(system, spring->frame, spring->at, solver->poses.data));
     const kiriContactMember member = { spring->frame, 1.0, spring->at };
-    kiriPointSprings at = { .spring = { spring->across, spring->along, spring->along } };
+    kiriPointSprings at = { .share = 1.0, .spring = { spring->across, spring->along, spring->along } };
     at.axis[0] = spring->normal;
     at.axis[1] = kiriVec3_Normalize(kiriVec3_Cross(spring->normal, kiriVec3_OtherAxis(spring->normal)));
     at.axis[2] = kiriVec3_Cross(at.axis[1], spring->normal);
