@@ -372,11 +372,6 @@ static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
     return kiriVec3_AddScaled(step->held, -step->grip, slide);
 }
 
-static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
-{
-    return kiriVec3_Across(a, direction);
-}
-
 /* ---- Soft contacts ------------------------------------------------------------------------------------------------
 
    A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at
@@ -483,12 +478,25 @@ static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
     double whole = 1.0 / part, sinks = isJoined ? step->sinks : whole * (DepthAt(step, point) - step->depth);
     kiriVec3 slides = isJoined ? step->slides : kiriVec3_Scale(whole, kiriVec3_Sub(SlideAt(step, point), step->slide));
     double push = step->pull + step->spring * sinks;
-    slides = step->sticks ? slides : Beside(slides, step->direction);
+    slides = step->sticks ? slides : kiriVec3_Across(slides, step->direction);
     kiriVec3 drag = kiriVec3_AddScaled(step->drags, -step->tie, slides);
     step->change = part * fabs(push - step->known);
     step->known = push;
     step->push = (1.0 - part) * step->push + part * push;
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
+}
+
+/* Returns the point at the end of free motion: the guess of the step, or the prediction. */
+static kiriVec3 FreePoint(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, bool isGuess)
+{
+    kiriVec3 x = { 0 };
+    KIRI_TIMES(m, step->memberCount) {
+        const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
+        const kiriPose* pose = isGuess ? &prediction->guess : &prediction->pose;
+        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, pose);
+        x = kiriVec3_AddScaled(x, step->members[m].value, kiriVec3_Add(pose->x, arm));
+    }
+    return x;
 }
 
 /* Guesses the initial state. A contact that free motion runs into pushes with the force that stops the motion. A
@@ -498,13 +506,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
 {
     const kiriContactRow* row = step->row;
     double inertia = InertiaOf(solver, step), was = kiriVec3_Dot(row->normal, row->force);
-    kiriVec3 predicted = { 0 }, free = predicted;
-    KIRI_TIMES(m, step->memberCount) {
-        const kiriPose* guess = &solver->predictions.data[step->members[m].frame].guess;
-        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, guess);
-        free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(guess->x, arm));
-    }
-    double gap = kiriVec3_Dot(row->normal, free) - step->plane;
+    double gap = kiriVec3_Dot(row->normal, FreePoint(solver, system, step, true)) - step->plane;
     step->held = kiriVec3_Across(row->force, row->normal);
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
@@ -512,11 +514,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
         GuessSoft(solver, step, -gap);
         return;
     }
-    KIRI_TIMES(m, step->memberCount) {
-        const kiriPose* pose = &solver->predictions.data[step->members[m].frame].pose;
-        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, pose);
-        predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(pose->x, arm));
-    }
+    kiriVec3 predicted = FreePoint(solver, system, step, false);
     double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
     kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
     slide = kiriVec3_Across(slide, row->normal);
@@ -661,7 +659,7 @@ static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide
     if (step->sticks) {
         return energy - kiriVec3_Dot(step->held, slide) + 0.5 * step->grip * kiriVec3_Dot(slide, slide);
     }
-    kiriVec3 beside = Beside(slide, step->direction);
+    kiriVec3 beside = kiriVec3_Across(slide, step->direction);
     return energy + step->limit * kiriVec3_Dot(step->direction, slide) +
            0.5 * TurnSpring(step) * kiriVec3_Dot(beside, beside);
 }
@@ -690,7 +688,7 @@ static kiriVec3 DragOf(const kiriContactStep* step, double part)
     kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
     return step->sticks ? kiriVec3_AddScaled(step->held, -step->grip, slide)
                         : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction),
-                                             -TurnSpring(step), Beside(slide, step->direction));
+                                             -TurnSpring(step), kiriVec3_Across(slide, step->direction));
 }
 
 kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,

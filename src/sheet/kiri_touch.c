@@ -240,26 +240,6 @@ static void MeasureVelocities(kiriSheetData* sheet)
     }
 }
 
-bool kiriProbes_Update(kiriSheetData* sheet)
-{
-    kiriProbes* probes = &sheet->probes;
-    bool isNew = !probes->isFresh;
-    double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
-    probes->block = isNew ? 1 : probes->block;
-    while (isNew && (double)(probes->block + 1) * (probes->block + 1) <= squares) {
-        ++probes->block;
-    }
-    if (isNew && !ChooseProbes(sheet)) {
-        return false;
-    }
-    probes->isFresh = true;
-    if (isNew || !sheet->rest.asleep) {
-        BoundPieces(sheet);
-        MeasureVelocities(sheet);
-    }
-    return true;
-}
-
 bool kiriProbes_Remake(kiriSheetData* sheet)
 {
     if (!ChooseProbes(sheet)) {
@@ -268,6 +248,23 @@ bool kiriProbes_Remake(kiriSheetData* sheet)
     BoundPieces(sheet);
     MeasureVelocities(sheet);
     return true;
+}
+
+bool kiriProbes_Update(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
+    if (!probes->isFresh) {
+        probes->block = 1;
+        while ((double)(probes->block + 1) * (probes->block + 1) <= squares) {
+            ++probes->block;
+        }
+        probes->isFresh = kiriProbes_Remake(sheet);
+    } else if (!sheet->rest.asleep) {
+        BoundPieces(sheet);
+        MeasureVelocities(sheet);
+    }
+    return probes->isFresh;
 }
 
 int32_t kiriTouchMemory_FirstFrom(const kiriTouchMemory* memory, uint64_t key)
@@ -609,8 +606,7 @@ int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, 
     return WriteWeights(sheet, &blend, weights, KIRI_STITCH_SIDE);
 }
 
-/* Returns the point that frames carry by these weights. */
-static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriContactMember* weights, int32_t count)
+kiriVec3 kiriSheet_CarriedPoint(const kiriSheetData* sheet, const kiriContactMember* weights, int32_t count)
 {
     kiriVec3 x = { 0 };
     KIRI_TIMES(n, count) {
@@ -637,7 +633,7 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->felt = touch->felt;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
     row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_MEMBERS);
-    kiriVec3 at = CarriedPoint(sheet, row->weights, row->weightCount);
+    kiriVec3 at = kiriSheet_CarriedPoint(sheet, row->weights, row->weightCount);
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
@@ -678,8 +674,8 @@ bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double di
     row->other = other->solver;
     row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
     /* The plane is at `distance` of the second point. Visible points differ from those that frames carry. */
-    kiriVec3 from = CarriedPoint(other, row->otherWeights, row->otherCount);
-    kiriVec3 to = CarriedPoint(sheet, row->weights, row->weightCount);
+    kiriVec3 from = kiriSheet_CarriedPoint(other, row->otherWeights, row->otherCount);
+    kiriVec3 to = kiriSheet_CarriedPoint(sheet, row->weights, row->weightCount);
     kiriVec3 apart = kiriVec3_Sub(to, from);
     const kiriMat3* A = &other->frames.data[row->otherWeights[0].frame].A;
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(apart, touch->seen));
@@ -905,7 +901,7 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
     kiriVec3 way = kiriVec3_Make(0.0, 0.0, 0.0);
     if (touch->row != KIRI_NONE) {
         const kiriContactRow* row = &sheet->touches.rows.data[touch->row];
-        kiriVec3 now = CarriedPoint(sheet, row->weights, row->weightCount);
+        kiriVec3 now = kiriSheet_CarriedPoint(sheet, row->weights, row->weightCount);
         /* The visible point is offset from the frames' blend by the same distance as the plane. */
         at = kiriVec3_AddScaled(now, touch->offset - row->offset, row->normal);
         impulse = row->impulse;

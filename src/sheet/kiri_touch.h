@@ -104,6 +104,9 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
    are of one piece. Returns their number; 0 outside the material. */
 int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* weights);
 
+/* Returns the point that frames carry by these weights. */
+kiriVec3 kiriSheet_CarriedPoint(const kiriSheetData* sheet, const kiriContactMember* weights, int32_t count);
+
 /* Stored contact forces, by key. */
 
 static inline bool kiriTouch_IsOfKind(const kiriTouch* touch, int32_t kind)

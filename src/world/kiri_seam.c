@@ -12,7 +12,7 @@
 #define PER_SPACING 1.5   /* stitches for the distance of frames */
 #define GRAVITY 9.81      /* m/s^2 */
 #define MOST_STITCHES 4096
-#define MOST_CORNERS 4096 /* of the lines: those after them are cut off */
+#define MOST_LINE_CORNERS 4096 /* of the lines: those after them are cut off */
 /* Of welds: */
 #define ON_SEAM 2048 /* lattice steps: a vertex as near to the line of a seam is on its lip */
 #define INTO_SHEET 512 /* lattice steps: from a border into the material */
@@ -119,16 +119,6 @@ static int32_t CarryEnd(const kiriSheetData* sheet, const kiriStitchData* stitch
         members[n] = (kiriContactMember){ weights[n].frame, weights[n].value, bends ? half : point };
     }
     return count;
-}
-
-static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count)
-{
-    kiriVec3 x = { 0 };
-    KIRI_TIMES(n, count) {
-        kiriVec3 carried = kiriFrame_Carry(&sheet->frames.data[members[n].frame], members[n].at);
-        x = kiriVec3_AddScaled(x, members[n].value, carried);
-    }
-    return x;
 }
 
 /* ---- Hinges ------------------------------------------------------------------------------------------------------
@@ -368,7 +358,7 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     bool hasRoom = kiriArray_ResizeJust(&world->memory, &made->stitches, count) &&
                    kiriArray_ReserveJust(&world->memory, &made->rows, count);
     hasRoom = hasRoom && kiriArray_ReserveJust(&world->memory, &made->corners,
-                                               kiriMin(def->countA + def->countB - 4, MOST_CORNERS));
+                                               kiriMin(def->countA + def->countB - 4, MOST_LINE_CORNERS));
     const char* why = hasRoom ? PlaceStitches(lines, made) : NULL;
     if (hasRoom && why == NULL) {
         PlaceCorners(lines, made);
@@ -525,7 +515,7 @@ kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriSeamData* seam, int3
     kiriContactMember members[KIRI_STITCH_SIDE];
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[stitch], end);
-    return CarriedEnd(sheet, members, CarryEnd(sheet, &seam->stitches.data[stitch], end, seam->bends, members));
+    return kiriSheet_CarriedPoint(sheet, members, CarryEnd(sheet, &seam->stitches.data[stitch], end, seam->bends, members));
 }
 
 /* Finds the vectors of both materials that a hinge keeps alike: of the first one, turned by an angle, and of the second
@@ -576,7 +566,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
         }
         bool isMoved = world->islands.isJoined.data[sheet->probes.sheet] && !sheet->rest.asleep &&
                        kiriSheet_Moves(sheet, members[0].frame);
-        kiriVec3 x = kiriVec3_Scale(end == 0 ? 1.0 : -1.0, CarriedEnd(sheet, members, count));
+        kiriVec3 x = kiriVec3_Scale(end == 0 ? 1.0 : -1.0, kiriSheet_CarriedPoint(sheet, members, count));
         apart = kiriVec3_Add(apart, x);
         const kiriMaterial* material = &sheet->settings.material;
         stiffness = kiriMax((double)material->youngsModulus * material->thickness, stiffness);
