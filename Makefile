@@ -552,10 +552,13 @@ ifneq ($(config),debug)
 $(TESTS:%=%.c.o): private FLAGS += -O1
 endif
 
-# Ticks spend no time in these: they are compiled for size.
+# Ticks spend little time in these: they are compiled for size.
 ifeq ($(config),release)
-$(patsubst %,$(BUILD)/src/%.c.o,$(addprefix world/kiri_,api_sheet api_contact api_world call draw part record state) \
-    $(addprefix sheet/kiri_,build detach sheet_save) mesh/kiri_mesh_check): private FLAGS += -Os
+$(patsubst %,$(BUILD)/src/%.c.o,core/kiri_base field/kiri_field_save motion/kiri_motion_check \
+    $(addprefix mesh/kiri_,cut lip mesh mesh_check) $(addprefix field/kiri_,link path region site) view/kiri_section \
+    $(addprefix sheet/kiri_,build detach motion obstacle piece pin sheet sheet_save sheet_site tear update) \
+    $(addprefix world/kiri_,api_contact api_sheet api_view api_world blade call draw island move part record seam state \
+    tick world)): private FLAGS += -Os
 endif
 
 $(BUILD)/libkiri.a: $(LIBRARY_OBJECTS) $(TO_LINK)
