@@ -724,8 +724,8 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* Writes the derivatives of a vector's move by a member's unknowns. `local`, `arm`: the vector, in the material and now;
    `along`: the axis, times the member's weight. isPoint: it moves with the frame's x. */
-static inline void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriVec3 local, kiriVec3 arm, bool isPoint,
-                        kiriVec3 along, double* J)
+static inline void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriVec3 local, kiriVec3 arm,
+                               bool isPoint, kiriVec3 along, double* J)
 {
     kiriVec3 moved = isPoint ? along : kiriVec3_Make(0.0, 0.0, 0.0);
     if (solver->size == 6 && !system->mechanics.planar) { /* a row is J as it is */
