@@ -4,8 +4,6 @@
 #define GRIP 30.0           /* spring on the slide of a sticking contact, in the same unit */
 #define SINKING 1e-4        /* m: limit of the depth under the known push; makes the spring stiffer if necessary */
 #define MOST_SPRING 1e9     /* upper limit of the spring, in the same unit */
-#define SLIDE_HALVINGS 8    /* bisections for the point of the step where friction ends it */
-#define SLOPE 0.1           /* of the slope that the step promises; smaller slopes do not end the step */
 #define EARLY 2             /* systems */
 #define PUSH_TOLERANCE 0.02 /* of the body's largest push; smaller errors of forces need no other iteration */
 #define SINK_TOLERANCE 1e-5 /* m: smaller depths of new contacts need no other iteration */
@@ -822,45 +820,6 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const ki
     }
 }
 
-/* ---- How far to go ----------------------------------------------------------------------------------------------- */
-
-/* Returns the slope, along the step, of the difference between the friction energy and its linear model, J. `part`:
-   part of the step taken. */
-static double FrictionSlope(const kiriContactStep* step, double part)
-{
-    kiriVec3 trial = Trial(step, kiriVec3_AddScaled(step->slide, part, step->slides));
-    double size = kiriVec3_Length(trial);
-    kiriVec3 drag = size > step->limit ? kiriVec3_Scale(step->limit / size, trial) : trial;
-    return kiriVec3_Dot(kiriVec3_Sub(DragOf(step, part), drag), step->slides);
-}
-
-/* Returns the slope of the objective by the part of the step taken, J. */
-static double SlopeAt(const kiriSolver* solver, double part)
-{
-    double slope = -2.0 * solver->search.promise * (1.0 - part);
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
-        if (step->isActive && !IsSoft(step->row)) {
-            slope += FrictionSlope(step, part);
-        }
-    }
-    return slope;
-}
-
-void kiriSolver_LimitByFriction(kiriSolver* solver)
-{
-    kiriSearch* search = &solver->search;
-    if (search->solved < EARLY || !(SlopeAt(solver, search->scale) > SLOPE * search->promise)) {
-        return;
-    }
-    double low = 0.0, high = search->scale;
-    KIRI_TIMES(halving, SLIDE_HALVINGS) {
-        search->scale = 0.5 * (low + high);
-        double slope = SlopeAt(solver, search->scale);
-        low = slope > 0.0 ? low : search->scale;
-        high = slope > 0.0 ? search->scale : high;
-    }
-}
-
 /* ---- Which contacts push, and how -------------------------------------------------------------------------------- */
 
 /* Sets the forces after taking `part` of a step. They are the forces of the linear model, because frames receive their
@@ -883,8 +842,7 @@ static void Activate(kiriContactStep* step, double friction, double inertia, dou
     step->direction = kiriVec3_Scale(length > KIRI_SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
 }
 
-/* Returns true if the contact will stick. In the first systems, a reversed slide sticks; later systems end before a
-   slide reverses (kiriSolver_LimitByFriction). */
+/* Returns true if the contact will stick. In the first systems, a reversed slide sticks. */
 static bool WillStick(const kiriContactStep* step, double limit, kiriVec3 slide, bool isEarly)
 {
     bool turned = !step->sticks && isEarly && kiriVec3_Dot(slide, step->direction) < 0.0;
@@ -956,17 +914,14 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 
 #define MOST_DEPTH 5e-3      /* m: smaller depths are left for the next step, as resting sheets need them */
 #define TOLERABLE_DEPTH 1e-3 /* m: depth that holding leaves */
-#define MOST_TURN 0.3        /* limit for a frame while held, about its angle in radians */
 #define LEAST_WEIGHT 0.05    /* minimum weight of a frame that is held */
 #define SWEEPS 12            /* over all contacts */
 
 /* Returns how far the obstacle is pushed down, m. */
 static double Yielded(const kiriContactStep* step)
 {
-    double held = step->push - kiriMax(step->solved, 0.0);
-    double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
-    double push = step->body != NULL ? kiriMax(held, 0.0) : step->push; /* the poses have the rest */
-    return step->push > 0.0 ? push * step->give + more : 0.0;
+    double push = step->body != NULL ? step->push - kiriMax(step->solved, 0.0) : step->push; /* the poses have the rest */
+    return step->push > 0.0 ? kiriMax(push, 0.0) * step->give : 0.0;
 }
 
 /* Returns true if a point of the body is too deep. Stores the pushes of the systems in `solved`. */
@@ -981,55 +936,14 @@ static bool IsDeep(kiriSolver* solver)
     return isDeep;
 }
 
-/* Shares the mass of obstacles among all contacts that may be held, which may be many more than the contacts that
-   pressed in the last system. Otherwise each would push the obstacle out as if it were alone, and a light body would be
-   shot off. */
-static void ShareMass(kiriSolver* solver)
-{
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-        if (contact->yield != NULL) {
-            contact->yield->held = 0;
-        }
-    }
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-        if (contact->yield != NULL) {
-            contact->yield->held += 1;
-        }
-    }
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {
-        const kiriYieldRow* yield = step->yield;
-        int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
-        step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
-    }
-}
-
-/* Restores the rotations at the start for frames that turned too far. Touches were found for these rotations; after a
-   large turn, other points of the material are below planes. */
-static void TurnBack(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES(f, system->frameCount) {
-        const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
-        kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
-        double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
-        if (!system->frames[f].held && turn > MOST_TURN * MOST_TURN) {
-            solver->poses.data[f].A = *start;
-        }
-    }
-}
-
-static kiriVec3 AlongNormalOf(const kiriSystem* system, const kiriContactStep* step)
-{
-    kiriVec3 normal = step->row->normal;
-    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
-}
-
 /* Pushes a frame until the point, as it carries it, is on the plane. The frame moves without turning, so depths change
    as expected, however far it has turned. Each frame is pushed by itself, not only their blend. This keeps frames, and
    the material between the points, from passing each other on their way to the plane. */
 static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, const kiriContactMember* member)
 {
     int32_t f = member->frame;
-    kiriVec3 along = AlongNormalOf(system, step);
+    kiriVec3 normal = step->row->normal;
+    kiriVec3 along = system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
     kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, member->at, solver->poses.data),
                                 kiriSystem_Point(system, f, member->at, solver->start.data));
     double depth = DepthAt(step, kiriVec3_Add(step->start, way)) - Yielded(step);
@@ -1037,7 +951,7 @@ static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContact
     if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
         return false;
     }
-    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->shared);
+    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->give);
     step->push += push;
     solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
     return true;
@@ -1052,66 +966,10 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContact
     return any;
 }
 
-/* Moves all frames of the body equally, which stores no energy. `mass`: mass of the frames that the host does not
-   hold. */
-static bool HoldWhole(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mass)
-{
-    kiriVec3 along = AlongNormalOf(system, step);
-    double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
-    double inertia = mass / (solver->stepping.part * solver->stepping.part), share = kiriVec3_Dot(along, along);
-    if (!(mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
-        return false;
-    }
-    double push = depth / (share / inertia + step->shared);
-    step->push += push;
-    KIRI_TIMES(f, system->frameCount) {
-        if (!system->frames[f].held) {
-            solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
-        }
-    }
-    return true;
-}
-
-/* Sweeps over all contacts until none is too deep: frame by frame, or the body as a whole. */
-static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
-{
-    bool isLeft = true;
-    double mass = 0.0;
-    KIRI_TIMES(f, system->frameCount) {
-        mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
-    }
-    KIRI_TIMES_WHILE(isLeft, sweep, SWEEPS) {
-        isLeft = false;
-        KIRI_EACH(kiriContactStep, step, solver->contacts) {
-            if (kiriContact_IsMutual(step)) {
-                continue;
-            }
-            isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
-        }
-    }
-}
-
-/* Accepts the held poses if the body stores no more energy than allowed. Otherwise restores the poses after the
-   systems, from `trial`, and returns false. */
-static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->poses.data);
-    double most = solver->search.start.potential + solver->touch.means;
-    most = kiriMax(most, solver->search.now.potential);
-    if (energy.potential <= most) {
-        solver->search.now = energy;
-        solver->touch.isHeldUp = true;
-        return true;
-    }
-    memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
-    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
-        contact->push = contact->solved;
-    }
-    return false;
-}
-
+/* Keeps the poses after the systems if the body stores more energy than allowed in the held ones. */
 void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
 {
+    bool isLeft = true;
     if (!IsDeep(solver)) {
         return;
     }
@@ -1122,12 +980,22 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
     }
     solver->touch.isPlaced = false;
     memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
-    ShareMass(solver);
-    TurnBack(solver, system);
-    SweepHolds(solver, system, false);
-    if (!TakeHeld(solver, system)) {
-        SweepHolds(solver, system, true);
-        TakeHeld(solver, system);
+    KIRI_TIMES_WHILE(isLeft, sweep, SWEEPS) {
+        isLeft = false;
+        KIRI_EACH(kiriContactStep, step, solver->contacts) {
+            isLeft |= !kiriContact_IsMutual(step) && HoldFrames(solver, system, step);
+        }
+    }
+    kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->poses.data);
+    double most = kiriMax(solver->search.start.potential + solver->touch.means, solver->search.now.potential);
+    solver->touch.isHeldUp = energy.potential <= most;
+    if (solver->touch.isHeldUp) {
+        solver->search.now = energy;
+    } else {
+        memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
+        KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+            contact->push = contact->solved;
+        }
     }
     kiriSolver_FindGains(solver, system);
 }
@@ -1154,33 +1022,6 @@ static kiriVec3 GivenForce(const kiriContactStep* step)
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step)
 {
     return kiriVec3_Scale(solver->touch.keepForces, GivenForce(step));
-}
-
-/* Scales all forces by one factor. Dropping pulls would make the other contacts throw the body up, because the sum of
-   all forces produced its final poses. The factor fits the remaining sum to that sum. If contacts alone act on a body
-   that was held up, their sum is the force that moves it from the end of free motion to its final poses, whatever the
-   path of the iteration. */
-void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
-    kiriVec3 asked = { 0 }, given = asked;
-    double part = solver->stepping.part;
-    KIRI_EACH_NEAR(step, solver) {
-        if (kiriContact_IsMutual(step)) {
-            continue;
-        }
-        if (!isMovedByThem) {
-            asked = kiriVec3_Add(asked, step->drag);
-            asked = kiriVec3_AddScaled(asked, step->push, step->row->normal);
-        }
-        given = kiriVec3_Add(given, GivenForce(step));
-    }
-    KIRI_TIMES_WHILE(isMovedByThem, f, system->frameCount) {
-        kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
-        asked = kiriVec3_AddScaled(asked, system->frames[f].mass / (part * part), way);
-    }
-    double fit = kiriVec3_Dot(asked, given), size = kiriVec3_Dot(given, given);
-    solver->touch.keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;
 }
 
 double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting)

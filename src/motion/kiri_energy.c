@@ -188,7 +188,6 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_CenterBody(solver, system);
-    kiriSolver_BalanceContacts(solver, system);
     WriteStepEnd(solver, system);
     RestoreMomentum(solver, system);
     SumGains(solver, system);
@@ -205,40 +204,6 @@ static double TakeEnergy(double kinetic, double* energy)
     return taken < kinetic ? kiriRoot(1.0 - taken / kinetic) : 0.0;
 }
 
-#define TRIALS 8
-
-/* Returns the part of the gain that exceeds the kinetic energy without the mean velocity, J. */
-static double Excess(const kiriSolver* solver)
-{
-    return solver->energy.gain - solver->energy.kinetic;
-}
-
-static bool IsThrown(const kiriSolver* solver)
-{
-    return solver->support == KIRI_SUPPORT_CONTACTS &&
-           Excess(solver) > (solver->touch.isHeldUp ? 0.0 : KIRI_SPARE_MEANS * solver->touch.means);
-}
-
-/* Limits the pushes of contacts. In a step that is far from solved they may be too large, and they determine the mean
-   velocity of a body on which nothing else acts. All pushes are scaled by one factor: the largest for which the other
-   velocities can supply the whole gain, or else the factor with the smallest gain. */
-static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
-{
-    double least = Excess(solver), best = 1.0, all = solver->touch.keepForces;
-    bool isThrown = IsThrown(solver);
-    for (int trial = 0; isThrown && trial <= TRIALS; ++trial) {
-        double part = (double)(TRIALS - 1 - trial) / TRIALS;
-        solver->touch.keepForces = (trial < TRIALS ? part : best) * all;
-        WriteStepEnd(solver, system);
-        RestoreMomentum(solver, system);
-        SumGains(solver, system);
-        if (Excess(solver) < least && least > 0.0) {
-            least = Excess(solver);
-            best = part;
-        }
-    }
-}
-
 #define MOST_CREDIT 0.02 /* of the kinetic energy */
 
 /* Takes energy first from velocities that differ from a rigid body's, which keeps the momenta; then from the rotation
@@ -248,7 +213,6 @@ static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
    negative credit, until the next step: its pose has moved all the same, so it is not calm. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
-    LimitPushes(solver, system);
     const kiriEnergyStep* has = &solver->energy;
     const kiriPieceMomentum* momentum = &solver->momentum;
     double credit = 0.0, most = MOST_CREDIT * (has->kinetic + has->moving);
@@ -260,7 +224,8 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     double energy = kiriMax(has->gain - credit, 0.0), beside = has->kinetic - has->turning;
     double keepRest = TakeEnergy(kiriMax(beside, 0.0), &energy), keepTurning = TakeEnergy(has->turning, &energy);
     bool isTouched = solver->support == KIRI_SUPPORT_CONTACTS;
-    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (isTouched && !IsThrown(solver));
+    double spare = solver->touch.isHeldUp ? 0.0 : KIRI_SPARE_MEANS * solver->touch.means;
+    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (isTouched && !(has->gain - has->kinetic > spare));
     double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
     double left = hasCredit ? kiriMax(credit - has->gain, 0.0) / momentum->mass : 0.0;
     KIRI_TIMES(f, system->frameCount) {

@@ -24,7 +24,6 @@ typedef struct kiriYieldRow {
     kiriWrench impulse;      /* N s, N m s about the centre: given by sheets in this tick; a step adds to it */
     kiriVec3 lent;           /* N s: the part of its momentum that it gets in equal parts at the substeps of the tick */
     int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass */
-    int32_t held;            /* scratch: contacts that may be held up after the systems of the current step */
     /* Scratch, N s m/s, see kiri_contact_row.c: sums of push times speed along it, before and after the pushes act, and
        the upper limit of `after`. */
     double before, after, most;
@@ -456,7 +455,6 @@ typedef struct kiriContactStep {
     double known;           /* N: largest push in any system so far; of a soft contact, the expected or last one */
     double stiffness, grip; /* N/m: springs on depth and slide */
     double give;            /* m/N: compliance of the obstacle in the step */
-    double shared;          /* m/N: the same while the point is held up after the last system */
     double depth, sinks;    /* m: depth at assembly, and its change by the whole solution */
     kiriVec3 slide, slides; /* m: slide at assembly, and its change by the whole solution */
     /* Soft contacts only. */
@@ -744,22 +742,14 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step);
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Shortens the step to the zero of the objective's derivative along it, if friction changes between slipping and
-   sticking on the way. */
-void kiriSolver_LimitByFriction(kiriSolver* solver);
-
 /* Returns the contribution of the contact to the objective, by its linear model along the step. */
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, const kiriPose* poses);
 
 /* Finds the contact forces after a Gauss-Newton step and chooses the state of contacts for the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Moves points that are still deep below planes back up after the last system. Moves frame by frame or, if that would
-   store more energy than allowed, the body as a whole. Counts the moves as pushes. */
+/* Moves points that are still deep below planes back up after the last system, frame by frame. Counts the moves as pushes. */
 void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system);
-
-/* Fits the forces to the final poses of the body. Call it before kiriContact_Force. */
-void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* Returns the force on the sheet, within the friction cone, N. */
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step);

@@ -137,29 +137,6 @@ static void BecomeEuler(kiriSolver* solver, const kiriSystem* system)
     Predict(solver, system);
 }
 
-static bool IsSamePose(const kiriPose* a, const kiriPose* b)
-{
-    double rounding = KIRI_LAST_BITS * kiriVec3_Length(b->x); /* of a held frame at rest */
-    return kiriVec3_Distance(a->x, b->x) <= rounding && kiriVec3_Equal(a->A.u, b->A.u) &&
-           kiriVec3_Equal(a->A.v, b->A.v) && kiriVec3_Equal(a->A.d, b->A.d);
-}
-
-/* Returns true if the host moves a held frame, or a clamp: it goes to its place at once. */
-static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_TIMES_WHILE(solver->isHeld, f, system->frameCount) {
-        if (system->frames[f].held && !IsSamePose(&solver->start.data[f], &solver->predictions.data[f].pose)) {
-            return true;
-        }
-    }
-    KIRI_TIMES(k, system->clampCount) {
-        if (!IsSamePose(&system->clamps[k].start, &system->clamps[k].pose)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool kiriSolver_AreTouching(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
     kiriSolver_FindNear(solver, system, poses);
@@ -487,31 +464,6 @@ static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
     return isHeld ? KIRI_SUPPORT_HELD : isPushed ? KIRI_SUPPORT_CONTACTS : KIRI_SUPPORT_NONE;
 }
 
-static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
-{
-    return stepping->l > 0.0 ? &history->pull : &history->gain;
-}
-
-/* Removes the mean from the histories of a free body. Inner forces do not move it as a whole, but a commit that changed
-   masses may have left a mean. */
-static void CenterHistories(kiriSolver* solver, int32_t frameCount)
-{
-    kiriVec3 mean = { 0 };
-    double mass = 0.0;
-    if (solver->support != KIRI_SUPPORT_NONE || solver->stepping.isEuler) {
-        return;
-    }
-    KIRI_TIMES(f, frameCount) {
-        kiriFrameData* frame = &solver->before.data[f];
-        mean = kiriVec3_AddScaled(mean, frame->mass, *CarriedOn(&solver->stepping, &frame->history));
-        mass += frame->mass;
-    }
-    KIRI_TIMES(f, frameCount) {
-        kiriVec3* carried = CarriedOn(&solver->stepping, &solver->before.data[f].history);
-        *carried = kiriVec3_AddScaled(*carried, -1.0 / mass, mean);
-    }
-}
-
 /* Prepares links and clamps that yield, from their strains at the start. */
 static void BeginYields(kiriSolver* solver, const kiriSystem* system)
 {
@@ -543,6 +495,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     KIRI_ASSERT(kiriElement_Count(system) <= solver->stopping.capacity);
     KIRI_CLEAR(&solver->search);
     KIRI_CLEAR(&solver->touch);
+    solver->touch.keepForces = 1.0;
     solver->dt = dt;
     solver->elementCount = kiriElement_Count(system);
     solver->isAlong = solver->isHeld = solver->isPut = false;
@@ -568,10 +521,9 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     kiriSolver_BeginContacts(solver, system);
     solver->support = SupportOf(solver, system);
     solver->stepping = ChooseStepping(solver, system);
-    CenterHistories(solver, system->frameCount);
     Predict(solver, system);
-    /* A contact, or a held frame that is carried about, pushes within a step, and then no more. */
-    solver->isTouched = IsCarried(solver, system) || IsPushed(solver) ||
+    /* A contact pushes within a step, and then no more. */
+    solver->isTouched = IsPushed(solver) ||
                         kiriSolver_AreTouching(solver, system, solver->start.data) ||
                         kiriSolver_AreTouching(solver, system, solver->poses.data);
     if (solver->isTouched && !solver->stepping.isEuler) {
@@ -1098,7 +1050,6 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
     }
     search->scale = LONGEST_ITERATION_TURN / longest;
     KIRI_ASSERT(!(search->scale > 1.0));
-    kiriSolver_LimitByFriction(solver);
 }
 
 /* Returns true if the body may store this energy. A contact reached during the step has far more energy than the body.
