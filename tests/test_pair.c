@@ -50,19 +50,12 @@ TEST(PairsAreFoundWhereNear)
 
 static const float dt = 1.0f / 60.0f;
 
-static void AddFloor(Host* host)
-{
-    kiriObstacle floor = 0;
-    kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);
-    OK(kiriCreateObstacle(host->world, &def, &floor));
-}
-
 /* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
 TEST(WhoWasAloneIsFound)
 {
     START_HOST(host);
     host.every = 30;
-    AddFloor(&host);
+    World_AddFloor(host.world);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.3f);
     kiriSheet first = AddSquare(&host, &def);
     def = SquareDef(5.0f, 0.0f, 0.3f);
@@ -152,7 +145,7 @@ static void StartPile(Host* host, kiriSheet sheets[PILE])
 {
     Host_Start(host);
     host->every = 30;
-    AddFloor(host);
+    World_AddFloor(host->world);
     for (int i = 0; i < PILE; ++i) {
         const double turn = 0.1 * i, c = 1.0 / sqrt(1.0 + turn * turn), s = turn * c;
         kiriSheetDef def = SquareDef(0.01f * (float)i, 0.005f * (float)i, 0.02f * (float)(i + 1));
@@ -205,7 +198,7 @@ TEST(HighPileRests)
     kiriSheet sheets[HIGH];
     START_HOST(host);
     host.every = 30;
-    AddFloor(&host);
+    World_AddFloor(host.world);
     for (int i = 0; i < HIGH; ++i) {
         kiriSheetDef def = SquareDef(0.002f * (float)i, 0.0f, 0.02f * (float)(i + 1));
         sheets[i] = AddSquare(&host, &def);
