@@ -18,6 +18,9 @@ int Contact_IsAsked(const char* group);
 /* m: how deep the deepest vertex of a sheet is in any obstacle of its world; below 0: none is. */
 double Contact_Depth(const kiriWorld* world, kiriSheet sheet);
 
+/* Of the processor, for this thread alone. */
+double Contact_Milliseconds(void);
+
 /* Files of cases. */
 void Contact_MeasureLaws(void);      /* contact_laws.c: friction, stopping, momentum, energy, conveyor, push, speed */
 void Contact_MeasureObstacles(void); /* contact_obstacles.c: depth at rest and worst, over obstacles */

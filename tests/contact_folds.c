@@ -1,4 +1,3 @@
-#define _POSIX_C_SOURCE 199309L
 /* Sheets that fold over themselves: triangles of one piece that cross, in motion and at rest. */
 #include "defaults.h"
 #include "contact.h"
@@ -7,7 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 static const float dt = 1.0f / 60.0f;
 
@@ -144,13 +142,6 @@ static void StartFold(Fold* fold, const FoldCase* of, int32_t selfContact)
     }
 }
 
-static double Milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
 static void MeasureFold(const FoldCase* of, int32_t selfContact)
 {
     Fold fold;
@@ -166,9 +157,9 @@ static void MeasureFold(const FoldCase* of, int32_t selfContact)
         for (int i = 0; tick == of->freeAt && i < fold.pinCount; ++i) {
             kiriDestroyPin(fold.world, fold.pins[i]);
         }
-        double start = Milliseconds(), before = energy;
+        double start = Contact_Milliseconds(), before = energy;
         kiriWorld_Tick(fold.world, dt, 2);
-        spent += Milliseconds() - start;
+        spent += Contact_Milliseconds() - start;
         energy = World_Energy(fold.world, fold.sheet);
         gained = tick > of->freeAt + 1 && of->move == NULL ? fmax(gained, energy / before - 1.0) : gained;
         Crossing crossing = Crossing_MeasureSelf(fold.world, fold.sheet);

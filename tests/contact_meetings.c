@@ -1,4 +1,3 @@
-#define _POSIX_C_SOURCE 199309L
 /* Sheets that meet sheets: two free ones, cloths on a ball, heaps of patches. */
 #include "defaults.h"
 #include "contact.h"
@@ -6,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 enum { MOST_SHEETS = 200 };
 
@@ -19,13 +17,6 @@ typedef struct Play {
     double worstTick, meanTick; /* ms, of this thread */
     double asleep;              /* s; infinite: never */
 } Play;
-
-static double Milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
 
 static void Start(Play* play, float gravity, int32_t obstacle, float radius, float z)
 {
@@ -73,9 +64,9 @@ static void Run(Play* play, int ticks)
     play->asleep = HUGE_VAL;
     for (; done < ticks && play->asleep == HUGE_VAL; ++done) {
         int32_t any = 0;
-        double start = Milliseconds();
+        double start = Contact_Milliseconds();
         kiriWorld_Tick(play->world, dt, 2);
-        double spent = Milliseconds() - start;
+        double spent = Contact_Milliseconds() - start;
         play->worstTick = fmax(spent, play->worstTick);
         play->meanTick += spent;
         for (int i = 0; i < play->count; ++i) {

@@ -7,14 +7,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 static const float dt = 1.0f / 60.0f;
-
-static double Seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC; /* of this thread alone */
-}
 
 static kiriWorld* StartWorld(void)
 {
@@ -114,9 +108,9 @@ static void MeasurePile(int count, int32_t material, const char* name)
     StartPile(&pile, count, material);
     for (int tick = 1; tick <= moreThanAll && asleepAt == 0; ++tick) {
         kiriProfile profile;
-        double start = Seconds();
+        double start = Contact_Milliseconds();
         kiriWorld_Tick(pile.world, dt, 2);
-        awakeSeconds += Seconds() - start;
+        awakeSeconds += 1e-3 * (Contact_Milliseconds() - start);
         kiriWorld_GetProfile(pile.world, &profile);
         pairTicks += profile.sheetPairs;
         if (tick % 10 == 0) {
@@ -133,9 +127,9 @@ static void MeasurePile(int count, int32_t material, const char* name)
     Contact_Limit("pile: layers off", variant, WorstLayer(&pile), 1.0, "mm");
     Contact_Limit("pile: asleep after", variant, asleepAt > 0 ? asleepAt * (double)dt : HUGE_VAL, 5.0, "s");
     for (int tick = 0; tick < 60; ++tick) {
-        double start = Seconds();
+        double start = Contact_Milliseconds();
         kiriWorld_Tick(pile.world, dt, 2);
-        asleepSeconds += (Seconds() - start) / 60.0;
+        asleepSeconds += (1e-3 * (Contact_Milliseconds() - start)) / 60.0;
     }
     Contact_Limit("pile: a pair awake", variant, pairTicks > 0.0 ? 1e6 * awakeSeconds / pairTicks : 0.0, 1000.0, "us");
     Contact_Limit("pile: a tick asleep", variant, asleepAt > 0 ? 1e6 * asleepSeconds : HUGE_VAL, 100.0, "us");

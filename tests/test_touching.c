@@ -211,6 +211,23 @@ TEST(CornersRest)
     }
 }
 
+/* A crumb that turns once a step stops: friction sees that it turns. */
+TEST(SpinsEnd)
+{
+    int32_t awake = 1;
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
+    def.position[2] = 0.5f * def.contactThickness;
+    kiriSheet crumb = Host_AddRectangle(&host, &def, 0.004f, 0.004f, 2, 2);
+    World_AddFloor(host.world);
+    OK(kiriSheet_SetVelocity(host.world, crumb, noVector, (float[]){ 0.0f, 0.0f, 753.98f }));
+    for (int tick = 0; tick < 120 && awake; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+        OK(kiriSheet_IsAwake(host.world, crumb, &awake));
+    }
+    assert_false(awake);
+}
+
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */
 TEST(SideBySideRests)
 {

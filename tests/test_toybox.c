@@ -1,6 +1,7 @@
 /* A box of toys: sheets of all materials fall on bodies of all shapes, and are cut while they fall. No call fails, and no
    tick adds much energy. In `make test` the box is small: its sheets pass through each other, or touch. With the argument
-   `all`, as in `make long`, it has 30 bodies and 20 sheets that touch, and 50 seeds; `all 7 2` runs two seeds from 7 on. */
+   `all`, as in `make long`, it has 30 bodies and 20 sheets that touch, and 50 seeds; `all 7 2` runs two seeds from 7 on,
+   and `all 7 2 0 1` plays them with no body and one sheet. */
 #include "crossing.h"
 #include "host.h"
 
@@ -165,5 +166,9 @@ SETUP
     if (count > 3) { /* first seed, count */
         firstSeed = (uint32_t)strtoul(words[2], NULL, 10);
         seeds = (uint32_t)strtoul(words[3], NULL, 10);
+    }
+    if (count > 5) { /* bodies, sheets */
+        bodies = atoi(words[4]);
+        sheets = atoi(words[5]);
     }
 }

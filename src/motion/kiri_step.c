@@ -1,6 +1,7 @@
 #include "kiri_solver.h"
 
 #define LONGEST_TURN 1.0 /* of a frame in a step of second order */
+#define TOUCHING_TURN 2.0 /* of one that may touch something: friction takes more than half a turn for a turn back, and drives it */
 
 /* ---- Planar sheets ---- */
 
@@ -519,6 +520,11 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         before->rate = kiriMat3_Scale(fade, &before->rate);
     }
     kiriSolver_BeginContacts(solver, system);
+    KIRI_TIMES_WHILE(solver->contacts.count > 0, f, system->frameCount) {
+        kiriVec3* spin = &solver->before.data[f].spin;
+        double turn = dt * kiriVec3_Length(*spin);
+        *spin = turn > TOUCHING_TURN ? kiriVec3_Scale(TOUCHING_TURN / turn, *spin) : *spin;
+    }
     solver->support = SupportOf(solver, system);
     solver->stepping = ChooseStepping(solver, system);
     Predict(solver, system);

@@ -182,6 +182,34 @@ static bool MarkVertices(kiriSheetData* sheet)
     return true;
 }
 
+/* Adds the farthest vertex in each quarter of a frame, round its centre of mass, that has no probe: a piece lies on probes on all
+   sides, however small or narrow it is. */
+static bool ChooseInQuarters(kiriSheetData* sheet, kiriMemory* scratch)
+{
+    Choices quarters = { NULL, 0, 0 };
+    if (!kiriArray_Resize(scratch, &quarters, 4 * (int64_t)sheet->frames.count)) {
+        return false;
+    }
+    KIRI_EACH(Choice, quarter, quarters) {
+        quarter->vertex = KIRI_NONE;
+        quarter->rank = HUGE_VAL;
+    }
+    KIRI_EACH_INDEX(v, sheet->probes.isChosen) {
+        int32_t f = kiriSkin_LeadingFrame(&sheet->vertexSkin, v);
+        kiriVec2 from = kiriVec2_Sub(sheet->seen.surface.rest.data[v], sheet->frames.data[f].center);
+        double rank = sheet->probes.isChosen.data[v] ? -HUGE_VAL : -kiriVec2_Dot(from, from);
+        Choice* quarter = &quarters.data[4 * f + (from.x >= 0.0) + 2 * (from.y >= 0.0)];
+        quarter->vertex = rank < quarter->rank ? v : quarter->vertex;
+        quarter->rank = kiriMin(rank, quarter->rank);
+    }
+    KIRI_EACH(const Choice, quarter, quarters) {
+        if (quarter->vertex != KIRI_NONE) {
+            sheet->probes.isChosen.data[quarter->vertex] = 1;
+        }
+    }
+    return true;
+}
+
 static bool ChooseProbes(kiriSheetData* sheet)
 {
     kiriMemory scratch = kiriMemory_Like(sheet->memory);
@@ -193,6 +221,7 @@ static bool ChooseProbes(kiriSheetData* sheet)
             ok = ChooseInBlock(sheet, &scratch, &choices, &block);
         }
     }
+    ok = ok && ChooseInQuarters(sheet, &scratch);
     kiriMemory_FreeAll(&scratch);
     return ok && ListChosen(sheet, sheet->probes.vertexPiece.data, sheet->layout.pieces.count, &sheet->probes.list) &&
            kiriArray_Resize(sheet->memory, &sheet->probes.velocities, sheet->probes.list.items.count);
