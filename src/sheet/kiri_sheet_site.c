@@ -413,11 +413,14 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 }
 
 /* Sites are denser around slit ends, where strains are large: `closeness` (c) times at an end, falling off to 1 at
-   `reach` spacings. If the count of frames is given, the density is lower, to leave enough frames elsewhere. If it is
-   open, the spacing s = max(d / c, d r / reach) at distance r from an end takes 2 pi (reach / d)^2 ln c extra frames,
-   if there is room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
+   `reach` spacings. The spacing s = max(d / c, d r / reach) at distance r from an end takes 2 pi (reach / d)^2 ln c extra
+   frames. If the count is open, they are added, if there is room for all. If it is given, the density is lower, to leave
+   enough frames elsewhere; in a thin sheet the ends get no more than a share of the frames, because uneven sites lock.
+   Measured with slit strips and a tongue (tests/test_estimate.c), and slits in squares (tests/test_layout.c). */
 #define GIVEN_CLOSENESS 2.5
 #define GIVEN_REACH 2.0
+#define THIN 200.0       /* spacing by thickness */
+#define THIN_SHARE 0.013 /* 0.3 by 2 pi GIVEN_REACH^2 ln GIVEN_CLOSENESS */
 #define OPEN_CLOSENESS 3.0
 #define OPEN_REACH 1.5
 #define OPEN_FRAMES_AN_END 15.5
@@ -478,6 +481,9 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, int32_t own, doubl
         }
     }
     double closeness = ClosenessFor(sheet, spacing), reach = isOpen ? OPEN_REACH : GIVEN_REACH;
+    if (!isOpen && !sheet->settings.mechanics.planar && spacing > THIN * sheet->settings.material.thickness) {
+        reach *= sqrt(kiriMin(THIN_SHARE * count / kiriMax(placer->ends.count, 1), 1.0));
+    }
     placer->sites.count = 0;
     placer->closeness = closeness;
     placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
