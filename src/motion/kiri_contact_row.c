@@ -1027,7 +1027,7 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step
 double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting)
 {
     kiriVec3 force = kiriContact_Force(solver, step);
-    double work = kiriVec3_Dot(force, kiriVec3_AddScaled(step->carried, 0.5, kiriRecoil_Way(step)));
+    double work = kiriVec3_Dot(force, kiriVec3_Add(step->carried, kiriRecoil_Way(step)));
     if (!solver->touch.isHeldUp) { /* else it is moved out of obstacles, which throws nothing */
         *(OnlyLifts(step) ? lifting : &work) += kiriVec3_Dot(force, step->row->normal) * step->out;
     }
@@ -1156,6 +1156,34 @@ static double LimitMore(const kiriSolver* solver, double more)
     return more;
 }
 
+/* Returns the ratio, `more` or another one, with which obstacles pay for the energy that a pinned body owes, as far as
+   they can. Times r, the pushes give obstacles r before + r^2 each / 2. The sheet gets -r (before + r each): obstacles move
+   with their velocity at the end of the step. */
+static double Pay(const kiriSolver* solver, double more)
+{
+    double before = 0.0, after = 0.0, owed = solver->energy.owed;
+    KIRI_EACH_WHILE(owed > 0.0, const kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL && contact->yield->inverseMass > 0.0) {
+            before += contact->yield->before;
+            after += contact->yield->after;
+            contact->yield->before = contact->yield->after = 0.0;
+        } else if (!contact->isFar) {
+            return more; /* who owes it is unknown */
+        }
+    }
+    KIRI_ASSERT(owed >= 0.0);
+    double each = after - before, square = before * before;
+    if (!(each > 0.0)) {
+        return more;
+    }
+    double root = kiriRoot(kiriMax(square + 4.0 * each * (after - owed), 0.0));
+    if (before + 2.0 * each >= 0.0) {
+        return kiriMax((root - before) / (2.0 * each), 0.0);
+    }
+    double rest = kiriRoot(kiriMax(square + 2.0 * each * (after - owed), 0.0));
+    return kiriMax(kiriMax((-before - root) / (2.0 * each), (-before - rest) / each), more);
+}
+
 /* Gives yield rows the impulses of contacts in the step. For a pinned body these follow from its momentum and its pins,
    as far as obstacles can receive them. Then writes impulses, and displacements of the planes. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
@@ -1165,17 +1193,18 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
         sum = SumPinned(solver, system);
         FindMore(solver, &sum);
     }
-    GivePushes(solver, sum.more > 1.0);
+    GivePushes(solver, sum.more > 1.0 || solver->energy.owed > 0.0);
     sum.more = LimitMore(solver, sum.more);
-    KIRI_EACH_WHILE(sum.more > 1.0, kiriContactStep, contact, solver->contacts) {
-        Give(solver, contact, sum.more - 1.0);
+    double given = Pay(solver, sum.more), known = solver->touch.keepForces * sum.more;
+    KIRI_EACH_WHILE(given != 1.0, kiriContactStep, contact, solver->contacts) {
+        Give(solver, contact, given - 1.0);
     }
-    solver->touch.keepForces *= sum.more;
+    solver->touch.keepForces *= given;
     KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriContactRow* row = step->row;
         if (!step->isFar) {
             row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
-            row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
+            row->force = kiriVec3_Scale(known, WithinCone(step));
         }
         row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step));
     }

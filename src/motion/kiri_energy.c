@@ -227,6 +227,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     double spare = solver->touch.isHeldUp ? 0.0 : KIRI_SPARE_MEANS * solver->touch.means;
     bool isOwn = solver->support == KIRI_SUPPORT_NONE || (isTouched && !(has->gain - has->kinetic > spare));
     double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
+    solver->energy.owed = solver->support == KIRI_SUPPORT_HELD ? energy : 0.0;
     double left = hasCredit ? kiriMax(credit - has->gain, 0.0) / momentum->mass : 0.0;
     KIRI_TIMES(f, system->frameCount) {
         kiriFrameData* frame = &solver->after.data[f];

@@ -510,6 +510,7 @@ typedef struct kiriEnergyStep {
     double turning; /* part of `kinetic`: rotation as one body */
     double moving;  /* kinetic energy of the mean velocity */
     double gain;    /* increase of energy in the step beyond work */
+    double owed;    /* by obstacles: the part that a body with pins could not give from its velocities */
 } kiriEnergyStep;
 
 /* A connected piece of a sheet, solved as one system. Spans index arrays of kiriSolverBodies. */
