@@ -712,7 +712,7 @@ bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
     enum { GROUPS = 512, VERTICES = 4096 }; /* a task of about 10 us */
     kiriSurface* surface = &sheet->seen.surface;
     kiriDetailTask task = { &surface->detail, kiriSurface_Places(surface), 0, sheet->probes.rooms.data,
-                            sheet->probes.folds ? sheet->probes.rooms.count : 0 };
+                            sheet->probes.limits ? sheet->probes.rooms.count : 0 };
     if (!kiriSurface_HasDetail(surface) || surface->isWritten) {
         return false;
     }

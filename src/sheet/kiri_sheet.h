@@ -187,8 +187,9 @@ typedef struct kiriProbes {
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
     KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
-    kiriFlags marks;                 /* per vertex, while a piece folds: KIRI_FOLD_... of this tick */
-    KIRI_ARRAY(float) rooms;         /* m, per vertex, while a piece folds: longest offset of the detail layer */
+    kiriFlags marks;                 /* per vertex, in sheets that fold or have a detail layer: KIRI_FOLD_... of this tick */
+    KIRI_ARRAY(float) rooms;         /* m, per vertex of these: longest offset of the detail layer, */
+    bool limits;                     /* which is limited in this tick */
 } kiriProbes;
 
 /* A pinned point that is drawn at its pin. */

@@ -203,6 +203,7 @@ KIRI_TABLE(ProbesTable, kiriProbes, {
     KIRI_DROPPED(sheet, list),
     KIRI_DROPPED(boxes, touch),
     KIRI_DROPPED(marks, rooms),
+    KIRI_DROPPED(limits),
 })
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */

@@ -333,11 +333,27 @@ static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t fi
     }
 }
 
+/* Begins the limits of the detail layer in this tick, unless they have begun. */
+static bool BeginRooms(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    bool isBegun = probes->rooms.count > 0;
+    if (!isBegun && !kiriArrays_Resize(sheet->memory, probes->vertexPiece.count, &probes->marks, &probes->rooms)) {
+        return false;
+    }
+    KIRI_EACH_INDEX_WHILE(!isBegun, v, probes->rooms) {
+        probes->marks.data[v] = probes->isChosen.data[v] ? KIRI_FOLD_PROBE : 0;
+        probes->rooms.data[v] = HUGE_VALF;
+    }
+    return true;
+}
+
 static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
 {
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
-    if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
+    bool hasDetail = !sheet->rest.asleep && sheet->seen.surface.detail.sweeps > 0;
+    if ((hasDetail && !BeginRooms(sheet)) || !kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
     KIRI_TIMES(p, count) {
@@ -615,8 +631,8 @@ static double LookAtPlace(void* context, int32_t triangle)
     double across = one.height * one.height, rest = 0.0;
     int side = isFold && !(one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0);
     bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
-    if (isFold && squared <= most) {
-        rest = DistanceAtRest(search->body->sheet, &one);
+    if (squared <= most) {
+        rest = isFold ? DistanceAtRest(search->body->sheet, &one) : HUGE_VAL;
         double behind = (OPEN - sqrt(squared) / rest) / PASSING;
         double gap = behind >= 1.0 ? squared : behind > 0.0 ? squared / (behind * behind) : HUGE_VAL;
         if (gap < search->gap || (gap == search->gap && triangle < search->layer.triangle)) {
@@ -653,8 +669,8 @@ static void MarkFold(kiriSheetData* sheet, const kiriNear* near, int layer)
 #define ROOM_STEP 0.25   /* of the distance that layers keep: an offset gets longer by that in a tick, */
 #define ROOM_GROWTH 1.25 /* and by this factor */
 
-/* Returns the longest offset of a probe in the detail layer after the tick, m, if no layer is near. */
-static double WidestRoom(const kiriSheetData* sheet, int32_t vertex)
+/* Returns the longest offset of a probe in the detail layer after the tick, m, if a layer begins to be near. */
+static double WidestRoom(const kiriSheetData* sheet, int32_t vertex, double kept)
 {
     const kiriDetail* detail = &sheet->seen.surface.detail;
     kiriVec3 offset = { 0.0, 0.0, 0.0 };
@@ -662,25 +678,27 @@ static double WidestRoom(const kiriSheetData* sheet, int32_t vertex)
         KIRI_ASSERT(3 * vertex < detail->offsets.count);
         offset = kiriVec3_Load(detail->offsets.data + 3 * vertex);
     }
-    return ROOM_STEP * sheet->settings.foldThickness + ROOM_GROWTH * kiriVec3_Length(offset);
+    return ROOM_STEP * kept + ROOM_GROWTH * kiriVec3_Length(offset);
 }
 
 /* Limits the offset to half of the gap to another layer, as it will be after the tick. */
-static void LimitRoom(const Search* search, int32_t vertex, double widest, double dt)
+static void LimitRoom(const Search* search, int32_t vertex, double widest, double kept, double dt)
 {
     kiriSheetData* sheet = search->body->sheet;
-    const kiriSurface* surface = &sheet->seen.surface;
+    float* limit = &sheet->probes.rooms.data[vertex];
     double room = widest;
     KIRI_ASSERT_HAS(sheet->probes.rooms, vertex);
     if (search->layer.triangle != KIRI_NONE) {
-        kiriPlace3 place = TrianglePlace(sheet, search->layer.triangle, search->layer.share);
-        kiriVec3 off = kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriSurface_Blend(surface, place.vertex, place.share));
+        kiriPlace3 place = TrianglePlace(search->other->sheet, search->layer.triangle, search->layer.share);
+        kiriVec3 under = kiriSurface_Blend(&place.sheet->seen.surface, place.vertex, place.share);
+        kiriVec3 off = kiriVec3_Sub(kiriSurface_At(&sheet->seen.surface, vertex), under);
         kiriVec3 speed = kiriVec3_Sub(PlaceVelocity(&place), kiriProbe_Velocity(sheet, vertex));
         double closing = dt * kiriMax(kiriVec3_Dot(speed, kiriVec3_Normalize(off)), 0.0);
-        double left = sqrt(search->gap) - closing - ROOM_KEPT * sheet->settings.foldThickness;
+        double left = sqrt(search->gap) - closing - ROOM_KEPT * kept;
         room = kiriClamp(0.5 * left, 0.0, widest);
     }
-    sheet->probes.rooms.data[vertex] = (float)room;
+    *limit = kiriMin(*limit, (float)room);
+    sheet->probes.limits = true;
 }
 
 /* Gives vertices that are not probes the least room of their neighbors. From here on marks are rounds of that. */
@@ -692,7 +710,7 @@ static void SpreadRooms(kiriSheetData* sheet)
     KIRI_EACH(uint8_t, mark, sheet->probes.marks) {
         *mark = (*mark & KIRI_FOLD_PROBE) != 0;
     }
-    bool isSpread = surface->detail.sweeps > 0;
+    bool isSpread = sheet->probes.limits && surface->detail.sweeps > 0;
     for (uint8_t round = 1; isSpread && round < UINT8_MAX; ++round) {
         isSpread = false;
         KIRI_TIMES(h, 3 * surface->triangleCount) {
@@ -721,6 +739,8 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     kiriVec3 mean = kiriVec3_Scale(1.0 / a->mass, a->momentum);
     const kiriTouchingPair* old = FindOld(pairs, a->id, b->id);
     bool isLower = old != NULL && old->lower == a->id, isFold = a == b, ok = true;
+    bool limits = isFold || (!a->asleep && a->sheet->seen.surface.detail.sweeps > 0);
+    double kept = isFold ? a->sheet->settings.foldThickness : KeptDistance(a, b);
     Search search = { .world = world, .body = a, .other = b };
     KIRI_ASSERT(a->mass > 0.0 && probes->velocities.count == probes->list.items.count);
     KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
@@ -734,18 +754,17 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         search.found[0] = search.found[1] = none;
         search.least[0] = own * own;
         search.least[1] = isFold ? own * own : 0.0;
-        double widest = isFold ? WidestRoom(a->sheet, none.vertex) : 0.0;
-        double wide = isFold ? 2.0 * widest + ROOM_KEPT * a->sheet->settings.foldThickness : 0.0;
+        double widest = limits ? WidestRoom(a->sheet, none.vertex, kept) : 0.0;
+        double wide = limits ? 2.0 * widest + ROOM_KEPT * kept : 0.0;
         search.gap = wide * wide;
         search.layer = none;
         if (isFold) {
             search.ahead = kiriVertex_SkinNormal(a->sheet, none.vertex);
-            probes->marks.data[none.vertex] |= KIRI_FOLD_PROBE;
         }
         kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, kiriMax(own * own, search.gap),
                            LookAtPlace, &search);
-        if (isFold) {
-            LimitRoom(&search, none.vertex, widest, dt);
+        if (isFold || search.layer.triangle != KIRI_NONE) {
+            LimitRoom(&search, none.vertex, widest, kept, dt);
         }
         KIRI_TIMES_WHILE(ok, k, 2) {
             const kiriNear* near = &search.found[k];
@@ -1065,15 +1084,10 @@ static bool BeginFolds(kiriSheetData* sheet)
     if (!sheet->probes.folds) {
         return true;
     }
-    if (!kiriProbes_Update(sheet) || !UpdateBounds(sheet) ||
-        !kiriArrays_Resize(sheet->memory, sheet->probes.vertexPiece.count, &sheet->probes.marks, &sheet->probes.rooms)) {
+    if (!kiriProbes_Update(sheet) || !UpdateBounds(sheet) || !BeginRooms(sheet)) {
         return false;
     }
     KIRI_ASSERT(sheet->probes.marks.count == sheet->seen.surface.vertexCount);
-    memset(sheet->probes.marks.data, 0, sheet->probes.marks.count);
-    KIRI_EACH(float, room, sheet->probes.rooms) {
-        *room = HUGE_VALF;
-    }
     kiriSurface_NeedNormals(&sheet->seen.surface);
     return true;
 }
@@ -1095,10 +1109,8 @@ static bool TouchFolds(kiriWorld* world, double dt)
                 ok = !kiriPiece_Folds(sheet, p) || (FindNears(world, body + p, body + p, reach, dt) &&
                                                     TouchTangles(&search) && TouchLayers(&search, first, dt));
             }
-            if (ok && sheet->probes.folds) {
-                SpreadRooms(sheet);
-            }
         }
+        SpreadRooms(sheet);
     }
     return ok;
 }
@@ -1146,6 +1158,11 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     kiriPairs* pairs = &world->pairs;
     Waking waking = { .any = false };
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
+    KIRI_EACH_INDEX(k, world->active) {
+        kiriProbes* probes = &kiriWorld_Active(world, k)->probes;
+        probes->rooms.count = probes->marks.count = 0;
+        probes->limits = false;
+    }
     return (!AreSeveral(world) || FindWaking(world, &waking)) &&
            (!waking.any || (ListBodies(world, &waking, dt) && LookAtAll(world, dt))) && KeepSleeping(world) &&
            SortFound(world) && TouchPairs(world, dt) && TouchFolds(world, dt);
