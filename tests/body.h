@@ -8,7 +8,7 @@
 #include "scene.h"
 #include "motion/kiri_solver.h"
 #include "pieces.h"
-#include "solver_step.h"
+#include "../src/motion/kiri_solver.h"
 
 enum { BODY_FRAMES = 64 };
 
@@ -173,97 +173,6 @@ static inline void Body_Drop(Body* body)
     kiriArray_Release(memory, &body->material);
     kiriArray_Release(memory, &body->sites);
     Scene_Release(&body->scene);
-}
-
-static inline kiriVec3 Body_SitePosition(const Body* body, int32_t f)
-{
-    return kiriFrame_Carry(&body->frames[f], body->frames[f].site.at);
-}
-
-static inline void Body_Hold(Body* body, int32_t f)
-{
-    body->frames[f].held = 1;
-    body->frames[f].heldPosition = Body_SitePosition(body, f);
-    body->frames[f].heldRotation = body->frames[f].A;
-}
-
-static inline void Body_Steps(Body* body, int count, double dt, int iterations)
-{
-    for (int k = 0; k < count; ++k) {
-        int32_t done = Solver_Step(body->solver, &body->system, dt, iterations, INT32_MAX);
-        assert_true(done >= iterations && done <= iterations + 6);
-    }
-}
-
-/* Until nothing moves; false where it does after so many steps. */
-static inline bool Body_Settle(Body* body, double dt, int most)
-{
-    double speed = 1.0;
-    for (int k = 0; k < most && speed > 1e-9; ++k) {
-        Body_Steps(body, 1, dt, 2);
-        speed = 0.0;
-        for (int32_t f = 0; f < body->system.frameCount; ++f) {
-            speed += kiriVec3_Length(body->frames[f].velocity);
-        }
-    }
-    return speed <= 1e-9;
-}
-
-static inline kiriVec3 Body_Momentum(const Body* body)
-{
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t f = 0; f < body->system.frameCount; ++f) {
-        sum = kiriVec3_AddScaled(sum, body->frames[f].mass, body->frames[f].velocity);
-    }
-    return sum;
-}
-
-/* About the origin: sum over the columns of A of moment A x A', with the thickness, and that of the centres. */
-static inline kiriVec3 Body_AngularMomentum(const Body* body)
-{
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    double h = (double)body->system.material.thickness;
-    for (int32_t f = 0; f < body->system.frameCount; ++f) {
-        const kiriFrameData* frame = &body->frames[f];
-        kiriMat3 rate = kiriFrame_Rate(frame);
-        double flat = frame->mass * h * h / 12.0;
-        sum = kiriVec3_AddScaled(sum, frame->mass, kiriVec3_Cross(frame->x, frame->velocity));
-        sum = kiriVec3_AddScaled(sum, frame->inertia[0] + flat, kiriVec3_Cross(frame->A.u, rate.u));
-        sum = kiriVec3_AddScaled(sum, frame->inertia[1], kiriVec3_Cross(frame->A.u, rate.v));
-        sum = kiriVec3_AddScaled(sum, frame->inertia[1], kiriVec3_Cross(frame->A.v, rate.u));
-        sum = kiriVec3_AddScaled(sum, frame->inertia[2] + flat, kiriVec3_Cross(frame->A.v, rate.v));
-        sum = kiriVec3_AddScaled(sum, flat, kiriVec3_Cross(frame->A.d, rate.d));
-    }
-    return sum;
-}
-
-/* An even deformation of the sheet, with the plane's columns of F and the director. */
-static inline void Body_Deform(Body* body, const kiriMat3* F, kiriVec3 move)
-{
-    for (int32_t f = 0; f < body->system.frameCount; ++f) {
-        body->frames[f].A = *F;
-        body->frames[f].x = kiriVec3_AddScaled(kiriVec3_AddScaled(move, body->frames[f].center.x, F->u),
-                                               body->frames[f].center.y, F->v);
-    }
-}
-
-/* Turns and moves the sheet, and sets it in rigid motion about its centre of mass. */
-static inline void Body_MoveRigidly(Body* body, kiriMat3 turn, kiriVec3 move, kiriVec3 velocity, kiriVec3 spin)
-{
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    double mass = 0.0;
-    for (int32_t f = 0; f < body->system.frameCount; ++f) {
-        kiriFrameData* frame = &body->frames[f];
-        frame->x = kiriVec3_Add(kiriMat3_Mul(turn, frame->x), move);
-        frame->A = kiriMat3_MulMat(turn, frame->A);
-        sum = kiriVec3_AddScaled(sum, frame->mass, frame->x);
-        mass += frame->mass;
-    }
-    for (int32_t f = 0; f < body->system.frameCount; ++f) {
-        kiriVec3 arm = kiriVec3_AddScaled(body->frames[f].x, -1.0 / mass, sum);
-        body->frames[f].velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, arm));
-        body->frames[f].spin = spin;
-    }
 }
 
 #endif

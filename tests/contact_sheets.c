@@ -66,17 +66,6 @@ static double Height(const Pile* pile, int i)
     return totals.center[2];
 }
 
-static int CountAwake(const Pile* pile)
-{
-    int count = 0;
-    for (int i = 0; i < pile->count; ++i) {
-        int32_t awake = 0;
-        kiriSheet_IsAwake(pile->world, pile->sheets[i], &awake);
-        count += awake;
-    }
-    return count;
-}
-
 /* How many lie below one that was below them. */
 static int CountMisplaced(const Pile* pile)
 {
@@ -117,7 +106,7 @@ static void MeasurePile(int count, int32_t material, const char* name)
             int32_t crossing = Crossing_Measure(pile.world, pile.sheets, count).crossing;
             worst = crossing > worst ? crossing : worst;
         }
-        asleepAt = CountAwake(&pile) == 0 ? tick : 0;
+        asleepAt = World_CountAwake(pile.world, pile.sheets, pile.count) == 0 ? tick : 0;
     }
     snprintf(variant, sizeof variant, "%d squares of %s", count, name);
     Contact_Limit("pile: worst crossing", variant, worst, 0.0, "tri.");

@@ -65,6 +65,17 @@ static inline double World_Energy(const kiriWorld* world, kiriSheet sheet)
     return totals.kineticEnergy + totals.elasticEnergy + 9.81 * totals.mass * totals.center[2];
 }
 
+static inline int World_CountAwake(const kiriWorld* world, const kiriSheet* sheets, int count)
+{
+    int awake = 0;
+    for (int i = 0; i < count; ++i) {
+        int32_t one = 0;
+        kiriSheet_IsAwake(world, sheets[i], &one);
+        awake += one;
+    }
+    return awake;
+}
+
 static inline void Set3(float vector[3], float x, float y, float z)
 {
     vector[0] = x;

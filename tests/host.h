@@ -278,6 +278,17 @@ static inline kiriObstacle World_AddObstacle(kiriWorld* world, const kiriObstacl
     return made;
 }
 
+/* Ticks until the sheet sleeps. Returns false if it does not in so many. */
+static inline bool Host_Sleeps(Host* host, kiriSheet sheet, float dt, int32_t most)
+{
+    int32_t awake = 1;
+    for (int32_t tick = 0; tick < most && awake; ++tick) {
+        OK(Host_Tick(host, dt, 2));
+        OK(kiriSheet_IsAwake(host->world, sheet, &awake));
+    }
+    return !awake;
+}
+
 static inline kiriObstacle World_AddFloor(kiriWorld* world)
 {
     kiriObstacleDef def = ObstacleOf(KIRI_OBSTACLE_PLANE);

@@ -194,11 +194,6 @@ static inline void Scene_Release(Scene* scene)
     assert_int_equal(scene->purse.out, 0);
 }
 
-static inline double Scene_Area(const Scene* scene)
-{
-    return kiriMesh_Area(&scene->mesh);
-}
-
 static inline int32_t Scene_Cell(const Scene* scene, double u, double v)
 {
     kiriLatticePoint p = kiriMesh_Snap(&scene->mesh, kiriVec2_Make(u, v));

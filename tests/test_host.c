@@ -441,7 +441,7 @@ TEST(SeenIsHeld)
 {
     for (int k = 0; k < 6; ++k) {
         const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f }, nearer[3] = { 0.8f, 1.0f, 0.0f };
-        int kind = k / 2, awake = 1;
+        int kind = k / 2;
         double off = 0.0;
         kiriPin pin;
         kiriFrame frames[9];
@@ -463,11 +463,7 @@ TEST(SeenIsHeld)
         } else {
             OK(kiriFrame_Hold(host.world, frames[8], held.position, held.rotation));
         }
-        for (int i = 0; i < 1800 && awake; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-            OK(kiriSheet_IsAwake(host.world, sheet, &awake));
-        }
-        assert_false(awake);
+        assert_true(Host_Sleeps(&host, sheet, DT, 1800));
         for (int i = 0; i <= 20; i += kind == 0 ? 20 : 1) {
             const float u = kind == 2 ? held.restPoint[0] : 0.05f * (float)i, v = kind == 2 ? held.restPoint[1] : 1.0f;
             const float at[3] = { kind == 0 && i == 20 ? 0.8f : u, v, 0.0f };

@@ -156,22 +156,13 @@ static void StartPile(Host* host, kiriSheet sheets[PILE])
     }
 }
 
-static int CountAwake(const Host* host, const kiriSheet* sheets, int count)
-{
-    int awake = 0;
-    for (int i = 0; i < count; ++i) {
-        awake += World_IsAwake(host->world, sheets[i]);
-    }
-    return awake;
-}
-
 static void TickUntilAsleep(Host* host, const kiriSheet* sheets, int count, int most)
 {
     int ticks = 0;
     do {
         OK(Host_Tick(host, dt, 2));
         assert_int_equal(Crossing_Measure(host->world, sheets, count).crossing, 0);
-    } while (CountAwake(host, sheets, count) > 0 && ++ticks < most);
+    } while (World_CountAwake(host->world, sheets, count) > 0 && ++ticks < most);
     assert_true(ticks < most);
 }
 
@@ -230,7 +221,7 @@ TEST(WhatTouchesWakesAndFallsAsleepTogether)
     TickUntilAsleep(&host, sheets, PILE, 300);
     OK(kiriSheet_Wake(host.world, sheets[0]));
     Host_Ticks(&host, PILE, dt, 2);
-    assert_int_equal(CountAwake(&host, sheets, PILE), PILE);
+    assert_int_equal(World_CountAwake(host.world, sheets, PILE), PILE);
     TickUntilAsleep(&host, sheets, PILE, 300);
     /* What lay on a sheet that is gone falls. */
     double height = Host_Totals(&host, sheets[1]).center[2];
@@ -344,6 +335,32 @@ TEST(FoldsStayApart)
 {
     assert_true(FoldOnce(0, 36) > 0);
     assert_true(FoldOnce(1, 36) == 0 && FoldOnce(1, 16) == 0);
+}
+
+/* The end of a ribbon is pinned to a wheel that turns: it is not drawn through the winding above it. */
+TEST(PinsAreNotDrawnThroughLayers)
+{
+    START_HOST(host);
+    host.every = 30;
+    kiriObstacleDef wheel = ObstacleOf(KIRI_OBSTACLE_CYLINDER);
+    wheel.radius = 0.06f;
+    wheel.height = 0.2f;
+    memcpy(wheel.rotation, (const float[]){ 1, 0, 0, 0, 0, 1, 0, -1, 0 }, sizeof wheel.rotation);
+    kiriSheetDef def = SheetOf(80, 40);
+    def.selfContact = 1;
+    def.contactThickness = 0.005f;
+    Set3(def.position, 0.0f, -0.03f, 0.061f);
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.2f, 0.06f, 80, 4);
+    kiriPinDef pin = Host_PinDef(0.001f, 0.0f, 0.0f, 0.0f, 0.061f);
+    pin.obstacle = World_AddObstacle(host.world, &wheel);
+    OK(kiriObstacle_SetVelocity(host.world, pin.obstacle, noVector, (const float[]){ 0.0f, -5.0f, 0.0f }));
+    for (int i = 0; i < 3; ++i) {
+        pin.restPoint[1] = 0.001f + 0.029f * (float)i;
+        pin.target[1] = pin.restPoint[1] - 0.03f;
+        OK(kiriCreatePin(host.world, sheet, &pin, &(kiriPin){ 0 }));
+    }
+    Host_Ticks(&host, 90, dt, 2);
+    assert_int_equal(Crossing_MeasureSelf(host.world, sheet).crossing, 0);
 }
 
 /* Drags two corners of a cloth through it while slits are cut; `restores`: and restores the world in each tick. */

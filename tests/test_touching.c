@@ -200,13 +200,8 @@ TEST(CornersRest)
 {
     for (uint32_t seed = 0; seed < 2; ++seed) {
         Touching t;
-        int32_t awake = 1;
         Start(&t, CORNERS, ON_A_FLOOR, seed);
-        for (int tick = 0; tick < 120 && awake; ++tick) {
-            OK(Host_Tick(&t.host, dt, 2));
-            OK(kiriSheet_IsAwake(t.host.world, t.sheet, &awake));
-        }
-        assert_true(!awake && Host_Counts(&t.host, t.sheet).pieces == 5);
+        assert_true(Host_Sleeps(&t.host, t.sheet, dt, 120) && Host_Counts(&t.host, t.sheet).pieces == 5);
         Host_Stop(&t.host);
     }
 }
@@ -214,18 +209,13 @@ TEST(CornersRest)
 /* A crumb that turns once a step stops: friction sees that it turns. */
 TEST(SpinsEnd)
 {
-    int32_t awake = 1;
     START_HOST(host);
     kiriSheetDef def = DefaultSheet();
     def.position[2] = 0.5f * def.contactThickness;
     kiriSheet crumb = Host_AddRectangle(&host, &def, 0.004f, 0.004f, 2, 2);
     World_AddFloor(host.world);
     OK(kiriSheet_SetVelocity(host.world, crumb, noVector, (float[]){ 0.0f, 0.0f, 753.98f }));
-    for (int tick = 0; tick < 120 && awake; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-        OK(kiriSheet_IsAwake(host.world, crumb, &awake));
-    }
-    assert_false(awake);
+    assert_true(Host_Sleeps(&host, crumb, dt, 120));
 }
 
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */

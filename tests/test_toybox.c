@@ -89,17 +89,6 @@ static void CutOne(Box* box)
     Host_Cut(&box->host, sheet, isAcross ? (float[]){ from, -0.1f, to, 0.6f } : (float[]){ -0.1f, from, 0.6f, to }, 2);
 }
 
-static int CountAwake(const Box* box)
-{
-    int awake = 0;
-    for (int k = 0; k < box->count; ++k) {
-        int32_t isAwake = 0;
-        OK(kiriSheet_IsAwake(box->host.world, box->sheets[k], &isAwake));
-        awake += isAwake;
-    }
-    return awake;
-}
-
 static double EnergyOf(const Box* box)
 {
     double energy = 0.0;
@@ -134,7 +123,7 @@ static void PlayBox(uint32_t seed, bool touch)
     int ticks = 0;
     before = EnergyOf(&box);
     double scale = fabs(before);
-    for (; ticks < (isLong ? LONG_REST : REST) && CountAwake(&box) > 0; ++ticks) {
+    for (; ticks < (isLong ? LONG_REST : REST) && World_CountAwake(box.host.world, box.sheets, box.count) > 0; ++ticks) {
         OK(Host_Tick(&box.host, dt, 2));
         double now = EnergyOf(&box);
         gained = fmax((now - before) / scale, gained);
@@ -142,7 +131,7 @@ static void PlayBox(uint32_t seed, bool touch)
     }
     Crossing crossing = Crossing_Measure(box.host.world, box.sheets, box.count);
     printf("seed %u: %d sheets awake after %.1f s, %d of %d triangles cross, a tick gains %.2g, %.2g with cuts\n", seed,
-           CountAwake(&box), (double)((float)ticks * dt), crossing.crossing, crossing.triangles, gained, falling);
+           World_CountAwake(box.host.world, box.sheets, box.count), (double)((float)ticks * dt), crossing.crossing, crossing.triangles, gained, falling);
     assert_true(isLong || (gained < (touch ? 0.5 : 0.01) && falling < 0.5));
     assert_true(isLong || !touch || crossing.crossing < 12); /* the detail layer of a piece keeps out of others */
     Host_Stop(&box.host);

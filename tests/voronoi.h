@@ -281,17 +281,6 @@ static inline void Voronoi_AddAreaElements(Voronoi* v)
     }
 }
 
-static inline void Voronoi_MakeSolver(Voronoi* v)
-{
-    static int32_t framePiece[VORONOI_SITES];
-    int32_t pieces = FindPieces(v->links, v->system.linkCount, v->system.frameCount, framePiece);
-    v->memory = kiriMemory_Make(NULL, NULL, NULL);
-    v->solver = kiriSolver_Create(&v->memory, &v->system.mechanics);
-    assert_non_null(v->solver);
-    assert_true(kiriSolver_Stage(v->solver, &v->system, framePiece, pieces));
-    kiriSolver_Commit(v->solver);
-}
-
 static inline void Voronoi_Drop(Voronoi* v)
 {
     kiriMemory_FreeAll(&v->memory);

@@ -607,6 +607,7 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
 }
 
 #define DRAW_ROUNDS 64  /* over pins that share frames */
+#define MOST_SHIFT 1.25 /* of the way of the farthest pin: pins that share frames would shift them far, in opposite ways */
 #define DRAWN 1e-6      /* of the longer side: nearer to its pin a point is drawn as it is */
 #define DRAW_REACH 0.5  /* of the side of a region: farther points are moved in part, and from twice as far not at all */
 
@@ -706,8 +707,9 @@ static void ListAllDrawn(kiriSheetData* sheet, double dt)
     }
 }
 
-/* Shifts the frames of a pinned point by their shares, until it is drawn at its pin. Returns how far it was away, m. */
-static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn)
+/* Shifts the frames of a pinned point by their shares, by `most` at most, until it is drawn at its pin. Returns how far it was
+   away, m. */
+static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn, double most)
 {
     kiriVec3 missing = drawn->missing;
     KIRI_EACH_CORNER(k) {
@@ -719,15 +721,34 @@ static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn)
             kiriShift* shift = &sheet->seen.surface.detail.shifts.data[weight->frame];
             shift->by = kiriVec3_AddScaled(shift->by, drawn->share[k] * weight->value / drawn->square, missing);
             shift->moves = true;
+            double size = kiriVec3_Length(shift->by);
+            shift->by = size > most ? kiriVec3_Scale(most / size, shift->by) : shift->by;
         }
     }
     return kiriVec3_Length(missing);
 }
 
+/* Moves the corners of a pinned point until it is drawn at its pin. `skin`: from the point of the skin to where it is drawn.
+   Returns how far it was away, m. */
+static double MoveCorners(kiriSheetData* sheet, const kiriDrawnPin* drawn, kiriVec3 skin)
+{
+    float* offsets = sheet->seen.surface.detail.offsets.data;
+    double square = 0.0;
+    KIRI_EACH_CORNER(k) {
+        skin = kiriVec3_AddScaled(skin, -drawn->share[k], kiriVec3_Load(offsets + 3 * drawn->vertex[k]));
+        square += drawn->share[k] * drawn->share[k];
+    }
+    KIRI_EACH_CORNER(k) {
+        float* offset = offsets + 3 * drawn->vertex[k];
+        kiriVec3_Store(offset, kiriVec3_AddScaled(kiriVec3_Load(offset), drawn->share[k] / square, skin));
+    }
+    return kiriVec3_Length(skin);
+}
+
 void kiriPins_Draw(kiriSheetData* sheet, double dt)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    double least = DRAWN * surface->longer, apart = HUGE_VAL;
+    double least = DRAWN * surface->longer, apart = HUGE_VAL, most = 0.0;
     bool isAny = false;
     if (surface->isWritten || !kiriSurface_HasDetail(surface) || sheet->pins.count == 0 || sheet->sewn.count > 0) {
         return;
@@ -736,18 +757,34 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
         KIRI_CLEAR(shift);
     }
     ListAllDrawn(sheet, dt);
+    KIRI_EACH(const kiriDrawnPin, pinned, sheet->drawnPins) {
+        most = kiriMax(MOST_SHIFT * kiriVec3_Length(pinned->missing), most);
+    }
     for (int round = 0; round < DRAW_ROUNDS && apart > least; ++round) {
         apart = 0.0;
         KIRI_EACH(const kiriDrawnPin, drawn, sheet->drawnPins) {
-            double missing = ShiftToPin(sheet, drawn);
+            double missing = ShiftToPin(sheet, drawn, most);
             apart = kiriMax(missing, apart);
         }
         isAny = isAny || apart > least;
+    }
+    KIRI_EACH(kiriDrawnPin, of, sheet->drawnPins) { /* from here on without offsets */
+        KIRI_EACH_CORNER(k) {
+            kiriVec3 offset = kiriVec3_Load(surface->detail.offsets.data + 3 * of->vertex[k]);
+            of->missing = kiriVec3_AddScaled(of->missing, of->share[k], offset);
+        }
     }
     KIRI_TIMES_WHILE(isAny, v, surface->vertexCount) {
         if (kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, v)])) {
             float* offset = surface->detail.offsets.data + 3 * v;
             kiriVec3_Store(offset, kiriVec3_Add(kiriVec3_Load(offset), ShiftOf(sheet, v)));
+        }
+    }
+    for (int round = 0; isAny && round < DRAW_ROUNDS && apart > least; ++round) {
+        apart = 0.0;
+        KIRI_EACH(const kiriDrawnPin, near, sheet->drawnPins) {
+            double missing = MoveCorners(sheet, near, near->missing);
+            apart = kiriMax(missing, apart);
         }
     }
 }
