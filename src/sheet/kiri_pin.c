@@ -474,27 +474,11 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
     }
 }
 
-static double StoredIn(const kiriSheetData* sheet, kiriPinRow row)
-{
-    KIRI_ASSERT_HAS(sheet->frames, row.frame);
-    KIRI_ASSERT(row.stiffness >= 0.0);
-    double off = kiriVec3_Distance(kiriFrame_Carry(&sheet->frames.data[row.frame], row.at), row.target);
-    return 0.5 * row.stiffness * off * off;
-}
-
 double kiriPins_ElasticEnergy(const kiriSheetData* sheet, kiriSystem system)
 {
     double sum = 0.0;
     system.clampCount = 1;
-    KIRI_EACH_INDEX(i, sheet->pins) {
-        if (sheet->pins.data[i].type == KIRI_PIN_POINT) {
-            sum += StoredIn(sheet, PointRow(sheet, &sheet->pins.data[i], sheet->layout.pinFrame.data[i], 0.0));
-        }
-    }
-    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
-        KIRI_TIMES_WHILE(sheet->pins.data[pinned->pin].type == KIRI_PIN_HINGE, k, 2) {
-            sum += StoredIn(sheet, HingeRow(sheet, pinned, k, 0.0));
-        }
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             kiriClampRow row = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 0.0);
             system.clamps = &row;
@@ -738,6 +722,7 @@ static double MoveCorners(kiriSheetData* sheet, const kiriDrawnPin* drawn, kiriV
         skin = kiriVec3_AddScaled(skin, -drawn->share[k], kiriVec3_Load(offsets + 3 * drawn->vertex[k]));
         square += drawn->share[k] * drawn->share[k];
     }
+    KIRI_ASSERT(square > 0.0);
     KIRI_EACH_CORNER(k) {
         float* offset = offsets + 3 * drawn->vertex[k];
         kiriVec3_Store(offset, kiriVec3_AddScaled(kiriVec3_Load(offset), drawn->share[k] / square, skin));
