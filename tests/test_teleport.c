@@ -365,7 +365,7 @@ static void CompareEverything(const Everything* a, const Everything* b, int32_t 
         double energy = fabs(one.elasticEnergy + one.kineticEnergy - other.elasticEnergy - other.kineticEnergy);
         int32_t awake = World_IsAwake(a->host.world, id);
         int32_t otherAwake = World_IsAwake(b->host.world, id);
-        if (most > (s == 5 ? 2e-3 : 1e-5) || energy > (s == 5 ? 1e-3 : 1e-5) * scale || awake != otherAwake) {
+        if (most > (s == 5 ? 2e-3 : 1e-5) || energy > (s == 5 ? 1e-3 : 2e-5) * scale || awake != otherAwake) {
             fail_msg("tick %d, sheet %d: %g m, %g J of %g, awake %d and %d", (int)tick, (int)s, most, energy, scale,
                      (int)awake, (int)otherAwake);
         }

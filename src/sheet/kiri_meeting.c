@@ -222,6 +222,7 @@ static void ChooseInPatch(const kiriMeeting* meeting, int32_t vertex, const kiri
     kiriVec2 from = kiriVec2_Sub(sheet->seen.surface.rest.data[vertex], frame->center);
     bool pushed = nearest->distance <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
     bool yields = kiriTouches_CanYield(sheet, meeting->yield); /* the deepest point stops a body with mass */
+    KIRI_ASSERT(frame->area > 0.0);
     double deeper = pushed + (yields ? 0.0 : kiriVec2_Length(from) / sqrt(frame->area));
     kiriNearVertex near = { vertex, PatchOf(meeting, f, from), KIRI_NONE, nearest->distance - PREFERRED * meeting->gap * deeper,
                             nearest->normal };

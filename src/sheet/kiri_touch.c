@@ -198,6 +198,7 @@ static bool ChooseInQuarters(kiriSheetData* sheet, kiriMemory* scratch)
         int32_t f = kiriSkin_LeadingFrame(&sheet->vertexSkin, v);
         kiriVec2 from = kiriVec2_Sub(sheet->seen.surface.rest.data[v], sheet->frames.data[f].center);
         double rank = sheet->probes.isChosen.data[v] ? -HUGE_VAL : -kiriVec2_Dot(from, from);
+        KIRI_ASSERT_HAS(sheet->frames, f);
         Choice* quarter = &quarters.data[4 * f + (from.x >= 0.0) + 2 * (from.y >= 0.0)];
         quarter->vertex = rank < quarter->rank ? v : quarter->vertex;
         quarter->rank = kiriMin(rank, quarter->rank);

@@ -337,6 +337,7 @@ static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t fi
 static bool BeginRooms(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
+    KIRI_ASSERT(probes->isFresh);
     bool isBegun = probes->rooms.count > 0;
     if (!isBegun && !kiriArrays_Resize(sheet->memory, probes->vertexPiece.count, &probes->marks, &probes->rooms)) {
         return false;
@@ -710,6 +711,7 @@ static void SpreadRooms(kiriSheetData* sheet)
     KIRI_EACH(uint8_t, mark, sheet->probes.marks) {
         *mark = (*mark & KIRI_FOLD_PROBE) != 0;
     }
+    KIRI_ASSERT(!sheet->probes.limits || sheet->probes.rooms.count == surface->vertexCount);
     bool isSpread = sheet->probes.limits && surface->detail.sweeps > 0;
     for (uint8_t round = 1; isSpread && round < UINT8_MAX; ++round) {
         isSpread = false;
