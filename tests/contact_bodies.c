@@ -154,6 +154,9 @@ static void MeasureFall(const Case* c)
         last = energy;
         deepest = fmax(Contact_Depth(world, sheet), deepest);
         lowest = fmin((double)body.position[2], lowest);
+        if (fmaxf(fabsf(body.position[0]), fabsf(body.position[1])) > 0.5f) {
+            break; /* it was thrown off, and falls beside the cloth */
+        }
         isThrough = Below(world, sheet, &body) < 0.0;
         if (tick >= TICKS - LAST) {
             kiriObstacleState state;
