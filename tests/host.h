@@ -278,7 +278,7 @@ static inline kiriObstacle World_AddObstacle(kiriWorld* world, const kiriObstacl
     return made;
 }
 
-/* Ticks until the sheet sleeps. Returns false if it does not in so many. */
+/* Ticks until the sheet sleeps, `most` times at most. Returns false if it is still awake then. */
 static inline bool Host_Sleeps(Host* host, kiriSheet sheet, float dt, int32_t most)
 {
     int32_t awake = 1;

@@ -133,7 +133,7 @@ static void PlayBox(uint32_t seed, bool touch)
     printf("seed %u: %d sheets awake after %.1f s, %d of %d triangles cross, a tick gains %.2g, %.2g with cuts\n", seed,
            World_CountAwake(box.host.world, box.sheets, box.count), (double)((float)ticks * dt), crossing.crossing, crossing.triangles, gained, falling);
     assert_true(isLong || (gained < (touch ? 0.5 : 0.01) && falling < 0.5));
-    assert_true(isLong || !touch || crossing.crossing < 12); /* the detail layer of a piece keeps out of others */
+    assert_true(isLong || !touch || crossing.crossing < 12); /* detail layers keep out of other pieces */
     Host_Stop(&box.host);
 }
 
