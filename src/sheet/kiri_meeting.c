@@ -3,7 +3,7 @@
 #include "kiri_seen.h"
 
 #define PREFERRED 0.5 /* of the contact distance: a vertex must be deeper by this to replace one that pushed */
-enum { PATCHES = 16 }; /* of a frame: bent sheets crumple on a floor, and strips tremble, with 4 */
+enum { PATCHES = 16 }; /* of a frame: with 4, strips tremble on a floor */
 
 /* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
 #define SAME_FACE 0.9
@@ -204,15 +204,8 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
     KIRI_NEXT(search->chosen) = near;
 }
 
-/* The patches of a frame are 4 x 4 round its centre of mass: so it rests on points on all sides, however small or narrow its
-   piece is. */
-static int32_t PatchOf(const kiriMeeting* meeting, int32_t f, kiriVec2 from)
-{
-    double inner = 0.25 * sqrt(meeting->sheet->frames.data[f].area);
-    return PATCHES * f + (from.x >= 0.0) + 2 * (from.y >= 0.0) + 4 * (fabs(from.x) > inner) + 8 * (fabs(from.y) > inner);
-}
-
-/* Looks at a vertex near a plane or a body with mass. One far from the centre of its frame counts as deeper, so a flat patch has
+/* Looks at a vertex near a plane or a body with mass. The patches of its frame are 4 x 4 round the centre of mass: so a frame rests
+   on points on all sides, however small or narrow its piece is. A vertex far from the centre counts as deeper, so a flat patch has
    its corner; and one that had a force, so that vertices of similar depth do not alternate. */
 static void ChooseInPatch(const kiriMeeting* meeting, int32_t vertex, const kiriNearest* nearest)
 {
@@ -222,11 +215,11 @@ static void ChooseInPatch(const kiriMeeting* meeting, int32_t vertex, const kiri
     kiriVec2 from = kiriVec2_Sub(sheet->seen.surface.rest.data[vertex], frame->center);
     bool pushed = nearest->distance <= 2.0 * meeting->gap && meeting->search->marks.data[vertex] > meeting->search->mark;
     bool yields = kiriTouches_CanYield(sheet, meeting->yield); /* the deepest point stops a body with mass */
-    KIRI_ASSERT(frame->area > 0.0);
-    double deeper = pushed + (yields ? 0.0 : kiriVec2_Length(from) / sqrt(frame->area));
-    kiriNearVertex near = { vertex, PatchOf(meeting, f, from), KIRI_NONE, nearest->distance - PREFERRED * meeting->gap * deeper,
-                            nearest->normal };
-    Choose(meeting->search, near);
+    double side = sqrt(frame->area), inner = 0.25 * side, deeper = pushed + (yields ? 0.0 : kiriVec2_Length(from) / side);
+    int32_t patch = (from.x >= 0.0) + 2 * (from.y >= 0.0) + 4 * (fabs(from.x) > inner) + 8 * (fabs(from.y) > inner);
+    KIRI_ASSERT(side > 0.0 && patch < PATCHES);
+    Choose(meeting->search, (kiriNearVertex){ vertex, PATCHES * f + patch, KIRI_NONE,
+                                              nearest->distance - PREFERRED * meeting->gap * deeper, nearest->normal });
 }
 
 static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)

@@ -712,22 +712,23 @@ static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn, double
     return kiriVec3_Length(missing);
 }
 
-/* Moves the corners of a pinned point until it is drawn at its pin. `skin`: from the point of the skin to where it is drawn.
-   Returns how far it was away, m. */
-static double MoveCorners(kiriSheetData* sheet, const kiriDrawnPin* drawn, kiriVec3 skin)
+/* Moves the corners of a pinned point until it is drawn at its pin; `missing` is what the skin misses without offsets. Returns
+   how far it was away, m. */
+static double MoveCorners(kiriSheetData* sheet, const kiriDrawnPin* drawn)
 {
+    kiriVec3 missing = drawn->missing;
     float* offsets = sheet->seen.surface.detail.offsets.data;
     double square = 0.0;
     KIRI_EACH_CORNER(k) {
-        skin = kiriVec3_AddScaled(skin, -drawn->share[k], kiriVec3_Load(offsets + 3 * drawn->vertex[k]));
+        missing = kiriVec3_AddScaled(missing, -drawn->share[k], kiriVec3_Load(offsets + 3 * drawn->vertex[k]));
         square += drawn->share[k] * drawn->share[k];
     }
     KIRI_ASSERT(square > 0.0);
     KIRI_EACH_CORNER(k) {
         float* offset = offsets + 3 * drawn->vertex[k];
-        kiriVec3_Store(offset, kiriVec3_AddScaled(kiriVec3_Load(offset), drawn->share[k] / square, skin));
+        kiriVec3_Store(offset, kiriVec3_AddScaled(kiriVec3_Load(offset), drawn->share[k] / square, missing));
     }
-    return kiriVec3_Length(skin);
+    return kiriVec3_Length(missing);
 }
 
 void kiriPins_Draw(kiriSheetData* sheet, double dt)
@@ -753,7 +754,7 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
         }
         isAny = isAny || apart > least;
     }
-    KIRI_EACH(kiriDrawnPin, of, sheet->drawnPins) { /* from here on without offsets */
+    KIRI_EACH_WHILE(isAny, kiriDrawnPin, of, sheet->drawnPins) { /* from here on without offsets */
         KIRI_EACH_CORNER(k) {
             kiriVec3 offset = kiriVec3_Load(surface->detail.offsets.data + 3 * of->vertex[k]);
             of->missing = kiriVec3_AddScaled(of->missing, of->share[k], offset);
@@ -768,7 +769,7 @@ void kiriPins_Draw(kiriSheetData* sheet, double dt)
     for (int round = 0; isAny && round < DRAW_ROUNDS && apart > least; ++round) {
         apart = 0.0;
         KIRI_EACH(const kiriDrawnPin, near, sheet->drawnPins) {
-            double missing = MoveCorners(sheet, near, near->missing);
+            double missing = MoveCorners(sheet, near);
             apart = kiriMax(missing, apart);
         }
     }

@@ -311,7 +311,9 @@ kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw
     KIRI_CHECK((draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0, "flags has more than those of KIRI_DRAW");
     KIRI_CHECK_NUMBER(draw->size, KIRI_ABOVE_0, FLT_MAX);
     const kiriSlot* only = kiriPool_Find(&world->sheetIds, draw->sheet);
-    KIRI_REQUIRE(only != NULL || draw->sheet == 0, KIRI_ERROR_ID, "there is no sheet with this id");
+    if (only == NULL && draw->sheet != 0) {
+        return kiriCall_RefuseId(world, call, __func__, "sheet", draw->sheet);
+    }
     kiriCall_BeginCallbacks(world);
     Drawing drawing = { draw->user,
                         draw->flags,
