@@ -185,6 +185,23 @@ void Import_AddBezier(Import* drawing, Affine affine, const double (*points)[2],
 
 /* ---- Words and numbers ---- */
 
+bool Import_IsSpace(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
+}
+
+Span Span_Trim(Span span)
+{
+    while (span.length > 0 && Import_IsSpace(span.at[0])) {
+        span.at++;
+        span.length--;
+    }
+    while (span.length > 0 && Import_IsSpace(span.at[span.length - 1])) {
+        span.length--;
+    }
+    return span;
+}
+
 bool Span_Is(Span span, const char* word)
 {
     return (size_t)span.length == strlen(word) && memcmp(span.at, word, (size_t)span.length) == 0;
@@ -314,6 +331,10 @@ static void ReadFormat(Import* drawing, const char* at, const char* end)
         GuessUses(drawing);
     } else if (*at == '{' || *at == '[') {
         Import_ReadFold(drawing, at, end);
+    } else if (end - at > 2 && (memcmp(at, "\xff\xfe", 2) == 0 || memcmp(at, "\xfe\xff", 2) == 0)) {
+        Import_Fail(drawing, "this is UTF-16: save it as UTF-8");
+    } else if (end - at > 2 && memcmp(at, "\x1f\x8b", 2) == 0) {
+        Import_Fail(drawing, "this is compressed, as .svgz is: unpack it by gunzip");
     } else if (end - at > 18 && memcmp(at, "AutoCAD Binary DXF", 18) == 0) {
         Import_Fail(drawing, "this is a binary DXF: save it as text");
     } else if (*at >= '0' && *at <= '9') {
@@ -330,7 +351,7 @@ bool Import_Read(Import* drawing, const char* text, int64_t size, double toleran
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
         at += 3;
     }
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r' || *at == '\n')) {
+    while (at < end && Import_IsSpace(*at)) {
         at++;
     }
     *drawing = (Import){ .tolerance = tolerance, .scale = 1.0 };

@@ -40,9 +40,15 @@ void Import_AddEllipse(Import* drawing, Affine affine, const double center[2], c
                        double sweep);
 void Import_AddBezier(Import* drawing, Affine affine, const double (*points)[2], int degree);
 
+bool Import_IsSpace(char c);
+Span Span_Trim(Span span);
+
 /* Whether a span is the word, or holds it in any case of letters (the word in small ones). */
 bool Span_Is(Span span, const char* word);
 bool Span_Holds(Span span, const char* word);
+
+/* Red, green, blue and opacity from 0 to 255; false: not a colour, and black. */
+bool Import_ReadColor(Span text, int rgba[4]);
 
 /* The use that the name of a layer says; -1: none. */
 int32_t Import_GetUse(Span name);

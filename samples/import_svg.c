@@ -1,5 +1,5 @@
 /* SVG: shapes, paths, use and symbol, transforms, units, styles, clip paths. Hidden and clipped parts are left out. */
-#include "import_parts.h"
+#include "import_xml.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,27 +8,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { MOST_ATTRIBUTES = 4000000, MOST_USES = 12, MOST_CLIPS = 8, NO_NODE = -1 };
-
-typedef struct Attribute {
-    Span name, value;
-} Attribute;
-
-typedef struct Node {
-    Span name, text;
-    int32_t firstAttribute, attributeCount, parent, child, next;
-} Node;
-
-typedef struct Name {
-    Span id;
-    int32_t node;
-} Name;
-
-/* A rule of a style sheet: ".name", "#name" or "name", and its declarations. */
-typedef struct Rule {
-    Span name, declarations;
-    char kind; /* '.', '#', 'e' */
-} Rule;
+enum { MOST_USES = 12, MOST_CLIPS = 8 };
 
 /* A region of the drawing that is seen: polygons, even-odd. Coordinates of the drawing without its scale. */
 typedef struct Clip {
@@ -41,21 +21,18 @@ typedef struct Clip {
 /* Properties that children inherit. */
 typedef struct Pen {
     Affine affine;
-    Span stroke, fill, dashes, color, layer;
+    Span stroke, fill, dashes, color, layer, strokeOpacity, fillOpacity;
     bool isHidden;
 } Pen;
 
 typedef struct Svg {
     Import* drawing;
-    Attribute* attributes;
-    Node* nodes;
-    Rule* rules;
-    Name* ids; /* sorted */
-    int32_t attributeCount, attributeCapacity, nodeCount, nodeCapacity, ruleCount, ruleCapacity, idCount, idCapacity;
+    Xml xml;
     Clip clips[MOST_CLIPS]; /* current ones; a point is seen if all hold it */
     int32_t clipCount, uses, depth;
     Clip* into; /* shapes become a clip, and no lines */
     int32_t style;
+    double view[2];           /* of the viewBox around: what per cents are of */
     double first[2], last[2]; /* of the subpath, before its affine */
     bool isBegun;
     const Pen* pen;
@@ -63,350 +40,9 @@ typedef struct Svg {
     int32_t lineCount, lineCapacity;
 } Svg;
 
-static bool IsSpace(char c)
-{
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
-}
-
-static Span Trim(Span span)
-{
-    while (span.length > 0 && IsSpace(span.at[0])) {
-        span.at++;
-        span.length--;
-    }
-    while (span.length > 0 && IsSpace(span.at[span.length - 1])) {
-        span.length--;
-    }
-    return span;
-}
-
-static bool SpansEqual(Span a, Span b)
-{
-    return a.length == b.length && memcmp(a.at, b.at, (size_t)a.length) == 0;
-}
-
-static const char* Find(const char* at, const char* end, const char* word)
-{
-    size_t length = strlen(word);
-    for (; at + length <= end; at++) {
-        at = memchr(at, word[0], (size_t)(end - at) - length + 1);
-        if (at == NULL) {
-            return end;
-        }
-        if (memcmp(at, word, length) == 0) {
-            return at;
-        }
-    }
-    return end;
-}
-
-/* ---- XML ---- */
-
-/* Reads a name without its prefix. */
-static const char* ReadName(const char* at, const char* end, Span* name)
-{
-    name->at = at;
-    while (at < end && !IsSpace(*at) && *at != '=' && *at != '>' && *at != '/') {
-        if (*at == ':') {
-            name->at = at + 1;
-        }
-        at++;
-    }
-    name->length = (int32_t)(at - name->at);
-    return at;
-}
-
-static bool AddAttribute(Svg* svg, Span name, Span value)
-{
-    if (!Import_Reserve((void**)&svg->attributes, &svg->attributeCapacity, svg->attributeCount, sizeof(Attribute))) {
-        Import_Fail(svg->drawing, "there is no memory for the drawing");
-        return false;
-    }
-    svg->attributes[svg->attributeCount++] = (Attribute){ name, value };
-    return true;
-}
-
-static const char* ReadAttributes(Svg* svg, const char* at, const char* end, Node* node)
-{
-    node->firstAttribute = svg->attributeCount;
-    while (at < end && *at != '>' && *at != '/') {
-        Span name, value = { at, 0 };
-        if (IsSpace(*at)) {
-            at++;
-            continue;
-        }
-        const char* start = at;
-        at = ReadName(at, end, &name);
-        while (at < end && IsSpace(*at)) {
-            at++;
-        }
-        if (at < end && *at == '=') {
-            at++;
-            while (at < end && IsSpace(*at)) {
-                at++;
-            }
-            if (at < end && (*at == '"' || *at == '\'')) {
-                const char* close = memchr(at + 1, *at, (size_t)(end - at - 1));
-                close = close != NULL ? close : end;
-                value = (Span){ at + 1, (int32_t)(close - at - 1) };
-                at = close < end ? close + 1 : end;
-            }
-        }
-        if (!AddAttribute(svg, name, value)) {
-            return end;
-        }
-        at += at == start; /* a letter that fits nowhere */
-    }
-    node->attributeCount = svg->attributeCount - node->firstAttribute;
-    return at;
-}
-
-/* Comments, declarations, and text between elements: returns the next tag. */
-static const char* FindTag(Svg* svg, const char* at, const char* end, int32_t open)
-{
-    while (at < end) {
-        if (*at != '<') {
-            const char* tag = memchr(at, '<', (size_t)(end - at));
-            at = tag != NULL ? tag : end;
-        } else if (end - at > 4 && memcmp(at, "<!--", 4) == 0) {
-            at = Find(at + 4, end, "-->");
-        } else if (end - at > 9 && memcmp(at, "<![CDATA[", 9) == 0) {
-            const char* close = Find(at + 9, end, "]]>");
-            if (open != NO_NODE) {
-                svg->nodes[open].text = (Span){ at + 9, (int32_t)(close - at - 9) };
-            }
-            at = close;
-        } else if (at + 1 < end && at[1] == '?') {
-            at = Find(at + 2, end, "?>");
-        } else if (at + 1 < end && at[1] == '!') {
-            const char *close = Find(at, end, ">"), *inner = memchr(at, '[', (size_t)(close - at));
-            at = inner != NULL ? Find(Find(inner, end, "]"), end, ">") : close;
-        } else {
-            return at;
-        }
-        at += at < end && *at != '<';
-    }
-    return end;
-}
-
-static void ReadXml(Svg* svg, const char* text, const char* end)
-{
-    int32_t open = NO_NODE, last = NO_NODE; /* the element around, and its latest child */
-    const char* at = FindTag(svg, text, end, open);
-    while (at < end && svg->drawing->error[0] == 0) {
-        if (at + 1 < end && at[1] == '/') {
-            if (open == NO_NODE) {
-                break;
-            }
-            Node* node = &svg->nodes[open];
-            if (node->text.at == NULL) {
-                node->text = (Span){ node->name.at, 0 };
-            }
-            if (node->child == NO_NODE && node->text.length == 0) { /* text alone, of a style */
-                const char* start = memchr(node->name.at, '>', (size_t)(at - node->name.at));
-                node->text = start != NULL ? (Span){ start + 1, (int32_t)(at - start - 1) } : node->text;
-            }
-            last = open;
-            open = node->parent;
-            at = FindTag(svg, Find(at, end, ">"), end, open);
-            continue;
-        }
-        Node node = { .parent = open, .child = NO_NODE, .next = NO_NODE };
-        at = ReadAttributes(svg, ReadName(at + 1, end, &node.name), end, &node);
-        if (!Import_Reserve((void**)&svg->nodes, &svg->nodeCapacity, svg->nodeCount, sizeof(Node))) {
-            Import_Fail(svg->drawing, "there is no memory for the drawing");
-            return;
-        }
-        int32_t index = svg->nodeCount++;
-        svg->nodes[index] = node;
-        if (last != NO_NODE) {
-            svg->nodes[last].next = index;
-        } else if (open != NO_NODE) {
-            svg->nodes[open].child = index;
-        }
-        bool isEmpty = at < end && *at == '/';
-        last = isEmpty ? index : NO_NODE;
-        open = isEmpty ? open : index;
-        at = FindTag(svg, Find(at, end, ">"), end, open);
-    }
-}
-
-/* ---- Attributes and style ---- */
-
-static Span GetAttribute(const Svg* svg, int32_t node, const char* name)
-{
-    const Node* is = &svg->nodes[node];
-    for (int32_t i = 0; i < is->attributeCount; i++) {
-        const Attribute* attribute = &svg->attributes[is->firstAttribute + i];
-        if (Span_Is(attribute->name, name)) {
-            return Trim(attribute->value);
-        }
-    }
-    return (Span){ NULL, 0 };
-}
-
-/* The value of "name: value;" in a list. */
-static Span FindDeclaration(Span list, const char* name)
-{
-    const char *at = list.at, *end = list.at + list.length;
-    Span found = { NULL, 0 };
-    while (at < end) {
-        const char* stop = memchr(at, ';', (size_t)(end - at));
-        stop = stop != NULL ? stop : end;
-        const char* colon = memchr(at, ':', (size_t)(stop - at));
-        if (colon != NULL && Span_Is(Trim((Span){ at, (int32_t)(colon - at) }), name)) {
-            found = Trim((Span){ colon + 1, (int32_t)(stop - colon - 1) });
-            if (found.length > 10 && memcmp(found.at + found.length - 10, "!important", 10) == 0) {
-                found = Trim((Span){ found.at, found.length - 10 });
-            }
-        }
-        at = stop + 1;
-    }
-    return found;
-}
-
-static bool HasClass(Span classes, Span name)
-{
-    const char *at = classes.at, *end = classes.at + classes.length;
-    while (at < end) {
-        const char* start = at;
-        while (at < end && !IsSpace(*at)) {
-            at++;
-        }
-        if (SpansEqual((Span){ start, (int32_t)(at - start) }, name)) {
-            return true;
-        }
-        at++;
-    }
-    return false;
-}
-
-/* A style attribute wins over rules by id, class and element; these win over an attribute with the property's name. */
-static Span GetProperty(const Svg* svg, int32_t node, const char* name)
-{
-    Span style = GetAttribute(svg, node, "style");
-    Span found = FindDeclaration(style, name);
-    if (found.at == NULL && svg->ruleCount > 0) {
-        Span id = GetAttribute(svg, node, "id"), classes = GetAttribute(svg, node, "class");
-        for (int pass = 0; pass < 3 && found.at == NULL; pass++) {
-            for (int32_t i = 0; i < svg->ruleCount; i++) {
-                const Rule* rule = &svg->rules[i];
-                if (rule->kind == "#.e"[pass] && (pass == 0   ? id.at != NULL && SpansEqual(rule->name, id)
-                                                  : pass == 1 ? HasClass(classes, rule->name)
-                                                              : SpansEqual(rule->name, svg->nodes[node].name))) {
-                    Span value = FindDeclaration(rule->declarations, name);
-                    found = value.at != NULL ? value : found;
-                }
-            }
-        }
-    }
-    return found.at != NULL ? found : GetAttribute(svg, node, name);
-}
-
-static void ReadRules(Svg* svg, Span text)
-{
-    const char *at = text.at, *end = text.at + text.length;
-    while (at < end) {
-        if (end - at > 2 && at[0] == '/' && at[1] == '*') {
-            at = Find(at, end, "*/");
-            at += at < end ? 2 : 0;
-            continue;
-        }
-        const char* open = memchr(at, '{', (size_t)(end - at));
-        const char* close = open != NULL ? memchr(open, '}', (size_t)(end - open)) : NULL;
-        if (close == NULL) {
-            return;
-        }
-        while (at < open) { /* selectors */
-            const char* comma = memchr(at, ',', (size_t)(open - at));
-            comma = comma != NULL ? comma : open;
-            Span name = Trim((Span){ at, (int32_t)(comma - at) });
-            at = comma + 1;
-            if (name.length == 0) {
-                continue;
-            }
-            bool isNamed = name.at[0] == '.' || name.at[0] == '#';
-            const char* dot = isNamed ? NULL : memchr(name.at, '.', (size_t)name.length);
-            Rule rule = { name, { open + 1, (int32_t)(close - open - 1) }, isNamed ? name.at[0] : 'e' };
-            if (dot != NULL) { /* element.class: by the class */
-                rule.kind = '.';
-                rule.name = (Span){ dot + 1, (int32_t)(name.at + name.length - dot - 1) };
-            } else if (isNamed) {
-                rule.name = (Span){ name.at + 1, name.length - 1 };
-            }
-            if (!Import_Reserve((void**)&svg->rules, &svg->ruleCapacity, svg->ruleCount, sizeof(Rule))) {
-                Import_Fail(svg->drawing, "there is no memory for the drawing");
-                return;
-            }
-            svg->rules[svg->ruleCount++] = rule;
-        }
-        at = close + 1;
-    }
-}
-
-static int CompareSpans(Span a, Span b)
-{
-    int order = memcmp(a.at, b.at, (size_t)(a.length < b.length ? a.length : b.length));
-    return order != 0 ? order : (a.length > b.length) - (a.length < b.length);
-}
-
-static int CompareNames(const void* a, const void* b)
-{
-    const Name *x = a, *y = b;
-    int order = CompareSpans(x->id, y->id);
-    return order != 0 ? order : x->node - y->node;
-}
-
-/* The element of "#id", or of "url(#id)". */
-static int32_t FindReference(const Svg* svg, Span reference)
-{
-    const char* hash = reference.at != NULL ? memchr(reference.at, '#', (size_t)reference.length) : NULL;
-    if (hash == NULL) {
-        return NO_NODE;
-    }
-    Span id = { hash + 1, (int32_t)(reference.at + reference.length - hash - 1) };
-    while (id.length > 0 &&
-           (id.at[id.length - 1] == ')' || id.at[id.length - 1] == '"' || id.at[id.length - 1] == '\'')) {
-        id.length--;
-    }
-    int32_t low = 0, high = svg->idCount;
-    while (low < high) {
-        int32_t middle = (low + high) / 2;
-        if (CompareSpans(svg->ids[middle].id, id) < 0) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low < svg->idCount && SpansEqual(svg->ids[low].id, id) ? svg->ids[low].node : NO_NODE;
-}
-
-static bool IndexNodes(Svg* svg)
-{
-    for (int32_t i = 0; i < svg->nodeCount; i++) {
-        if (Span_Is(svg->nodes[i].name, "style")) {
-            ReadRules(svg, svg->nodes[i].text);
-        }
-        Span id = GetAttribute(svg, i, "id");
-        if (id.at != NULL) {
-            if (!Import_Reserve((void**)&svg->ids, &svg->idCapacity, svg->idCount, sizeof(Name))) {
-                Import_Fail(svg->drawing, "there is no memory for the drawing");
-                return false;
-            }
-            svg->ids[svg->idCount++] = (Name){ id, i };
-        }
-    }
-    if (svg->idCount > 0) {
-        qsort(svg->ids, (size_t)svg->idCount, sizeof(Name), CompareNames);
-    }
-    return svg->drawing->error[0] == 0;
-}
-
-/* ---- Numbers ---- */
-
 static const char* SkipCommas(const char* at, const char* end)
 {
-    while (at < end && (IsSpace(*at) || *at == ',')) {
+    while (at < end && (Import_IsSpace(*at) || *at == ',')) {
         at++;
     }
     return at;
@@ -433,10 +69,11 @@ static double GetUnit(Span unit)
     static const struct {
         const char* name;
         double size;
-    } units[] = { { "mm", 1.0 },         { "cm", 10.0 },       { "m", 1000.0 },       { "in", 25.4 },
-                  { "pt", 25.4 / 72.0 }, { "pc", 25.4 / 6.0 }, { "px", 25.4 / 96.0 }, { "Q", 0.25 } };
+    } units[] = { { "mm", 1.0 },         { "cm", 10.0 },        { "m", 1000.0 },
+                  { "in", 25.4 },        { "pt", 25.4 / 72.0 }, { "pc", 25.4 / 6.0 },
+                  { "px", 25.4 / 96.0 }, { "q", 0.25 },         { "em", 16.0 * 25.4 / 96.0 } };
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        if (Span_Is(unit, units[i].name)) {
+        if (unit.length == (int32_t)strlen(units[i].name) && Span_Holds(unit, units[i].name)) {
             return units[i].size;
         }
     }
@@ -456,9 +93,13 @@ static double GetLength(Span span, double whole, double otherwise)
     return Span_Is(unit, "%") ? 0.01 * number * whole : size > 0.0 ? number * size * 96.0 / 25.4 : number;
 }
 
+/* A per cent is a share of the width or the height; for a radius, of their quadratic mean. */
 static double LengthOf(const Svg* svg, int32_t node, const char* name)
 {
-    return GetLength(GetAttribute(svg, node, name), 100.0, 0.0);
+    bool isDown = strchr(name, 'y') != NULL || name[0] == 'h';
+    double whole = Span_Is((Span){ name, (int32_t)strlen(name) }, "r") ? hypot(svg->view[0], svg->view[1]) * sqrt(0.5)
+                                                                       : svg->view[isDown];
+    return GetLength(Xml_GetAttribute(&svg->xml, node, name), whole, 0.0);
 }
 
 static Affine ReadTransform(Span list)
@@ -471,9 +112,9 @@ static Affine ReadTransform(Span list)
         if (close == NULL) {
             break;
         }
-        Span name = Trim((Span){ SkipCommas(at, open), 0 });
+        Span name = Span_Trim((Span){ SkipCommas(at, open), 0 });
         name.length = (int32_t)(open - name.at);
-        name = Trim(name);
+        name = Span_Trim(name);
         double n[6] = { 0 };
         int count = ReadNumbers((Span){ open + 1, (int32_t)(close - open - 1) }, n, 6);
         Affine one = { { 1, 0, 0, 1, 0, 0 } };
@@ -854,8 +495,8 @@ static void DrawRect(Svg* svg, int32_t node)
 {
     double x = LengthOf(svg, node, "x"), y = LengthOf(svg, node, "y"), w = LengthOf(svg, node, "width"),
            h = LengthOf(svg, node, "height");
-    double rx = GetLength(GetAttribute(svg, node, "rx"), w, -1.0),
-           ry = GetLength(GetAttribute(svg, node, "ry"), h, -1.0);
+    double rx = GetLength(Xml_GetAttribute(&svg->xml, node, "rx"), svg->view[0], -1.0),
+           ry = GetLength(Xml_GetAttribute(&svg->xml, node, "ry"), svg->view[1], -1.0);
     rx = rx < 0.0 ? ry : rx;
     ry = ry < 0.0 ? rx : ry;
     rx = fmin(fmax(rx, 0.0), 0.5 * w);
@@ -903,21 +544,23 @@ static void DrawPoints(Svg* svg, Span list, bool isClosed)
 /* False: it is not a shape. */
 static bool DrawShape(Svg* svg, int32_t node)
 {
-    Span name = svg->nodes[node].name;
+    Span name = svg->xml.nodes[node].name;
     if (Span_Is(name, "path")) {
-        ReadPath(svg, GetAttribute(svg, node, "d"));
+        ReadPath(svg, Xml_GetAttribute(&svg->xml, node, "d"));
     } else if (Span_Is(name, "rect")) {
         DrawRect(svg, node);
     } else if (Span_Is(name, "circle") || Span_Is(name, "ellipse")) {
         bool isCircle = Span_Is(name, "circle");
-        DrawEllipse(svg, LengthOf(svg, node, "cx"), LengthOf(svg, node, "cy"),
-                    LengthOf(svg, node, isCircle ? "r" : "rx"), LengthOf(svg, node, isCircle ? "r" : "ry"));
+        double rx = LengthOf(svg, node, isCircle ? "r" : "rx"), ry = LengthOf(svg, node, isCircle ? "r" : "ry");
+        bool hasX = isCircle || Xml_GetAttribute(&svg->xml, node, "rx").at != NULL,
+             hasY = isCircle || Xml_GetAttribute(&svg->xml, node, "ry").at != NULL;
+        DrawEllipse(svg, LengthOf(svg, node, "cx"), LengthOf(svg, node, "cy"), hasX ? rx : ry, hasY ? ry : rx);
     } else if (Span_Is(name, "line")) {
         MoveTo(svg, LengthOf(svg, node, "x1"), LengthOf(svg, node, "y1"));
         AddPoint(svg, LengthOf(svg, node, "x2"), LengthOf(svg, node, "y2"));
         EndLine(svg, false);
     } else if (Span_Is(name, "polyline") || Span_Is(name, "polygon")) {
-        DrawPoints(svg, GetAttribute(svg, node, "points"), Span_Is(name, "polygon"));
+        DrawPoints(svg, Xml_GetAttribute(&svg->xml, node, "points"), Span_Is(name, "polygon"));
     } else {
         return false;
     }
@@ -926,91 +569,61 @@ static bool DrawShape(Svg* svg, int32_t node)
 
 /* ---- Colours and layers ---- */
 
-/* Red, green, blue from 0 to 255; false: none, or not a colour. */
-static bool ReadColor(Span text, int rgb[3])
+/* Whether a colour is clearly the first of three. */
+static bool Leads(int a, int b, int c)
 {
-    static const struct {
-        const char* name;
-        unsigned color;
-    } names[] = { { "black", 0x000000 },   { "white", 0xffffff }, { "red", 0xff0000 },    { "lime", 0x00ff00 },
-                  { "green", 0x008000 },   { "blue", 0x0000ff },  { "yellow", 0xffff00 }, { "magenta", 0xff00ff },
-                  { "fuchsia", 0xff00ff }, { "cyan", 0x00ffff },  { "aqua", 0x00ffff },   { "gray", 0x808080 },
-                  { "grey", 0x808080 },    { "navy", 0x000080 },  { "orange", 0xffa500 }, { "maroon", 0x800000 },
-                  { "purple", 0x800080 },  { "silver", 0xc0c0c0 } };
-    if (text.length > 3 && text.at[0] == '#') {
-        int digits[8] = { 0 }, count = 0;
-        for (int32_t i = 1; i < text.length && count < 8; i++, count++) {
-            char c = text.at[i];
-            digits[count] = c >= '0' && c <= '9'   ? c - '0'
-                            : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                            : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                                   : 0;
-        }
-        for (int k = 0; k < 3; k++) {
-            rgb[k] = count < 6 ? 17 * digits[k] : 16 * digits[2 * k] + digits[2 * k + 1];
-        }
-        return true;
-    }
-    if (text.length > 4 && memcmp(text.at, "rgb", 3) == 0) {
-        const char *at = memchr(text.at, '(', (size_t)text.length), *end = text.at + text.length;
-        for (int k = 0; k < 3 && at != NULL; k++) {
-            double number;
-            at = Import_ReadNumber(SkipCommas(at + (k == 0 || *at == '%'), end), end, &number);
-            bool isShare = at != NULL && at < end && *at == '%';
-            rgb[k] = at != NULL ? (int)fmin(fmax(isShare ? 2.55 * number : number, 0.0), 255.0) : 0;
-        }
-        return at != NULL;
-    }
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (Span_Is(text, names[i].name)) {
-            for (int k = 0; k < 3; k++) {
-                rgb[k] = (int)(names[i].color >> (16 - 8 * k) & 255);
-            }
-            return true;
-        }
-    }
-    return false;
+    return a >= 90 && 2 * b <= a && 2 * c <= a;
 }
 
 /* Black cuts, red is a mountain, blue a valley, green a score; white is paper. */
-static int32_t UseOfColor(const int rgb[3])
+static int32_t UseOfColor(const int rgba[4])
 {
-    int r = rgb[0], g = rgb[1], b = rgb[2];
-    return r > 240 && g > 240 && b > 240    ? IMPORT_NONE
-           : r >= 150 && g < 110 && b < 110 ? IMPORT_MOUNTAIN
-           : b >= 110 && r < 110 && g < 150 ? IMPORT_VALLEY
-           : g >= 110 && r < 110 && b < 110 ? IMPORT_SCORE
-                                            : IMPORT_CUT;
+    int r = rgba[0], g = rgba[1], b = rgba[2];
+    return r > 240 && g > 240 && b > 240                        ? IMPORT_NONE
+           : Leads(r, g, b) || (r >= 150 && g < 110 && b < 110) ? IMPORT_MOUNTAIN
+           : Leads(b, r, g) || (b >= 110 && r < 110 && g < 150) ? IMPORT_VALLEY
+           : Leads(g, r, b) || (g >= 110 && r < 110 && b < 110) ? IMPORT_SCORE
+                                                                : IMPORT_CUT;
 }
 
-static bool IsNone(Span paint)
+/* A paint that was not given is seen, if it is not transparent. */
+static bool IsSeen(Span paint, Span opacity)
 {
-    return Span_Is(paint, "none") || Span_Is(paint, "transparent");
+    int rgba[4];
+    double part = 1.0;
+    ReadNumbers(opacity, &part, 1);
+    bool isNone = paint.length == 4 && Span_Holds(paint, "none");
+    return part > 0.0 && !isNone && !(paint.length == 11 && Span_Holds(paint, "transparent")) &&
+           !(paint.at != NULL && Import_ReadColor(paint, rgba) && rgba[3] == 0);
 }
 
 /* The style of a shape's lines; false: it is not drawn. */
 static bool ChooseStyle(Svg* svg, const Pen* pen)
 {
-    Span paint = pen->stroke.at != NULL && !IsNone(pen->stroke) ? pen->stroke : pen->fill;
-    if (pen->isHidden || (paint.at != NULL && IsNone(paint))) {
+    bool isStroked = pen->stroke.at != NULL && IsSeen(pen->stroke, pen->strokeOpacity);
+    Span paint = isStroked ? pen->stroke : pen->fill;
+    if (pen->isHidden || (!isStroked && !IsSeen(pen->fill, pen->fillOpacity))) {
         return false;
     }
-    paint = Span_Is(paint, "currentColor") ? pen->color : paint;
-    int rgb[3] = { 0, 0, 0 };
+    paint = paint.length == 12 && Span_Holds(paint, "currentcolor") ? pen->color : paint;
+    int rgba[4];
+    bool isColor = Import_ReadColor(paint.at != NULL ? paint : (Span){ "black", 5 }, rgba);
     double dash[8] = { 0 };
-    int dashes = pen->stroke.at != NULL && !IsNone(pen->stroke) ? ReadNumbers(pen->dashes, dash, 8) : 0;
+    int dashes = isStroked ? ReadNumbers(pen->dashes, dash, 8) : 0;
     bool isDashed = dashes > 0 && dash[0] > 0.0 && (dashes == 1 || dash[1] > 0.0);
-    if (paint.at != NULL) {
-        ReadColor(paint, rgb);
-    }
-    char name[IMPORT_TEXT];
-    int32_t use = UseOfColor(rgb), layer = Import_GetUse(pen->layer);
+    char name[IMPORT_TEXT], color[24];
+    int32_t use = UseOfColor(rgba), layer = Import_GetUse(pen->layer);
     if (use == IMPORT_CUT && isDashed) { /* dash and dot: a mountain */
         use = dashes >= 4 ? IMPORT_MOUNTAIN : IMPORT_VALLEY;
     }
-    snprintf(name, sizeof name, "#%02x%02x%02x%s%s%.*s", rgb[0], rgb[1], rgb[2],
-             isDashed ? dashes >= 4 ? " dash-dot" : " dashed" : "", layer >= 0 ? " " : "",
-             layer >= 0 ? (int)(pen->layer.length < 24 ? pen->layer.length : 24) : 0, layer >= 0 ? pen->layer.at : "");
+    if (isColor) {
+        snprintf(color, sizeof color, "#%02x%02x%02x", (unsigned)rgba[0], (unsigned)rgba[1], (unsigned)rgba[2]);
+    } else {
+        snprintf(color, sizeof color, "%.*s", (int)paint.length, paint.at);
+    }
+    snprintf(name, sizeof name, "%s%s%s%.*s", color, isDashed ? dashes >= 4 ? " dash-dot" : " dashed" : "",
+             layer >= 0 ? " " : "", layer >= 0 ? (int)(pen->layer.length < 24 ? pen->layer.length : 24) : 0,
+             layer >= 0 ? pen->layer.at : "");
     svg->style = Import_AddStyle(svg->drawing, name, layer >= 0 ? layer : use);
     return true;
 }
@@ -1025,23 +638,25 @@ static void Inherit(const Svg* svg, int32_t node, Pen* pen)
     } properties[] = { { "stroke", &pen->stroke },
                        { "fill", &pen->fill },
                        { "stroke-dasharray", &pen->dashes },
-                       { "color", &pen->color } };
+                       { "color", &pen->color },
+                       { "stroke-opacity", &pen->strokeOpacity },
+                       { "fill-opacity", &pen->fillOpacity } };
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
-        Span value = GetProperty(svg, node, properties[i].name);
+        Span value = Xml_GetProperty(&svg->xml, node, properties[i].name);
         if (value.at != NULL && !Span_Is(value, "inherit")) {
             *properties[i].value = value;
         }
     }
-    Span visibility = GetProperty(svg, node, "visibility");
+    Span visibility = Xml_GetProperty(&svg->xml, node, "visibility");
     if (visibility.at != NULL) {
         pen->isHidden = !Span_Is(visibility, "visible") && !Span_Is(visibility, "inherit");
     }
-    if (Span_Is(svg->nodes[node].name, "g")) {
-        Span label = GetAttribute(svg, node, "label"), id = GetAttribute(svg, node, "id");
+    if (Span_Is(svg->xml.nodes[node].name, "g")) {
+        Span label = Xml_GetAttribute(&svg->xml, node, "label"), id = Xml_GetAttribute(&svg->xml, node, "id");
         Span name = Import_GetUse(label) >= 0 ? label : id;
         pen->layer = Import_GetUse(name) >= 0 ? name : pen->layer;
     }
-    Span transform = GetProperty(svg, node, "transform");
+    Span transform = Xml_GetProperty(&svg->xml, node, "transform");
     if (transform.at != NULL) {
         pen->affine = Affine_Multiply(pen->affine, ReadTransform(transform));
     }
@@ -1051,15 +666,73 @@ static void DrawNode(Svg* svg, int32_t node, const Pen* outer);
 
 static void DrawChildren(Svg* svg, int32_t node, const Pen* pen)
 {
-    for (int32_t child = svg->nodes[node].child; child != NO_NODE && svg->drawing->error[0] == 0;
-         child = svg->nodes[child].next) {
+    for (int32_t child = svg->xml.nodes[node].child; child != NO_NODE && svg->drawing->error[0] == 0;
+         child = svg->xml.nodes[child].next) {
         DrawNode(svg, child, pen);
+    }
+}
+
+static void EndClip(Svg* svg)
+{
+    Clip* clip = &svg->clips[--svg->clipCount];
+    free(clip->points);
+    free(clip->starts);
+}
+
+/* Nothing is seen outside the box of a size in pixels. Returns whether a clip was added. */
+static bool BeginBox(Svg* svg, Affine affine, const double size[2])
+{
+    if (svg->clipCount == MOST_CLIPS || svg->into != NULL) {
+        return false;
+    }
+    Clip* clip = &svg->clips[svg->clipCount];
+    *clip = (Clip){ .points = malloc(8 * sizeof(double)), .starts = calloc(1, sizeof(int32_t)), .startCount = 1 };
+    if (clip->points == NULL || clip->starts == NULL) {
+        free(clip->points);
+        free(clip->starts);
+        Import_Fail(svg->drawing, "there is no memory for the drawing");
+        return false;
+    }
+    for (clip->pointCount = 0; clip->pointCount < 4; clip->pointCount++) {
+        int32_t i = clip->pointCount;
+        double x = i == 1 || i == 2 ? size[0] : 0.0, y = i > 1 ? size[1] : 0.0;
+        const double* m = affine.m;
+        clip->points[2 * i] = m[0] * x + m[2] * y + m[4];
+        clip->points[2 * i + 1] = m[1] * x + m[3] * y + m[5];
+    }
+    svg->clipCount++;
+    return true;
+}
+
+/* Draws an inner svg or symbol within its box. `by`: the element that sizes the box, a use or the node. */
+static void DrawView(Svg* svg, int32_t node, int32_t by, Pen pen)
+{
+    const Xml* xml = &svg->xml;
+    double size[2], box[4], outer[2] = { svg->view[0], svg->view[1] };
+    Span viewBox = Xml_GetAttribute(xml, node, "viewBox"), overflow = Xml_GetProperty(xml, node, "overflow");
+    for (int k = 0; k < 2; k++) {
+        const char* name = k == 0 ? "width" : "height";
+        double own = GetLength(Xml_GetAttribute(xml, node, name), outer[k], outer[k]);
+        size[k] = GetLength(Xml_GetAttribute(xml, by, name), outer[k], own);
+    }
+    Affine move = { { 1, 0, 0, 1, LengthOf(svg, node, "x"), LengthOf(svg, node, "y") } };
+    pen.affine = Affine_Multiply(pen.affine, move);
+    bool isSeen = overflow.at != NULL && (Span_Is(overflow, "visible") || Span_Is(overflow, "auto"));
+    bool isClipped = !isSeen && BeginBox(svg, pen.affine, size);
+    bool hasBox = ReadNumbers(viewBox, box, 4) == 4;
+    pen.affine = Affine_Multiply(
+        pen.affine, FitViewBox(viewBox, Xml_GetAttribute(xml, node, "preserveAspectRatio"), size[0], size[1]));
+    memcpy(svg->view, hasBox ? box + 2 : size, sizeof outer);
+    DrawChildren(svg, node, &pen);
+    memcpy(svg->view, outer, sizeof outer);
+    if (isClipped) {
+        EndClip(svg);
     }
 }
 
 static void DrawUse(Svg* svg, int32_t node, Pen pen)
 {
-    int32_t target = FindReference(svg, GetAttribute(svg, node, "href"));
+    int32_t target = Xml_FindReference(&svg->xml, Xml_GetAttribute(&svg->xml, node, "href"));
     Affine move = { { 1, 0, 0, 1, LengthOf(svg, node, "x"), LengthOf(svg, node, "y") } };
     if (target == NO_NODE || svg->uses == MOST_USES) {
         Import_Skip(svg->drawing, target == NO_NODE ? "use of a missing id" : "use within its own");
@@ -1067,15 +740,10 @@ static void DrawUse(Svg* svg, int32_t node, Pen pen)
     }
     svg->uses++;
     pen.affine = Affine_Multiply(pen.affine, move);
-    if (Span_Is(svg->nodes[target].name, "symbol")) {
-        Span box = GetAttribute(svg, target, "viewBox"), ratio = GetAttribute(svg, target, "preserveAspectRatio");
-        double n[4] = { 0.0, 0.0, 100.0, 100.0 };
-        ReadNumbers(box, n, 4);
-        double width = GetLength(GetAttribute(svg, node, "width"), n[2], n[2]),
-               height = GetLength(GetAttribute(svg, node, "height"), n[3], n[3]);
-        pen.affine = Affine_Multiply(pen.affine, FitViewBox(box, ratio, width, height));
+    Span name = svg->xml.nodes[target].name;
+    if (Span_Is(name, "symbol") || Span_Is(name, "svg")) {
         Inherit(svg, target, &pen);
-        DrawChildren(svg, target, &pen);
+        DrawView(svg, target, node, pen);
     } else {
         DrawNode(svg, target, &pen);
     }
@@ -1085,7 +753,7 @@ static void DrawUse(Svg* svg, int32_t node, Pen pen)
 /* Shapes of a clip path become one region. Returns whether a clip was added. */
 static bool BeginClip(Svg* svg, Span reference, Pen pen)
 {
-    int32_t node = FindReference(svg, reference);
+    int32_t node = Xml_FindReference(&svg->xml, reference);
     if (node == NO_NODE || svg->into != NULL) {
         return false;
     }
@@ -1095,7 +763,7 @@ static bool BeginClip(Svg* svg, Span reference, Pen pen)
     }
     Clip* clip = &svg->clips[svg->clipCount];
     *clip = (Clip){ .points = NULL };
-    Span units = GetAttribute(svg, node, "clipPathUnits");
+    Span units = Xml_GetAttribute(&svg->xml, node, "clipPathUnits");
     if (units.at != NULL && Span_Is(units, "objectBoundingBox")) {
         Import_Skip(svg->drawing, "clip by bounding box");
         return false;
@@ -1116,13 +784,13 @@ static void DrawNode(Svg* svg, int32_t node, const Pen* outer)
                                           "linearGradient", "radialGradient", "symbol", "filter",  "style",
                                           "title",          "metadata",       "desc",   "script",  "namedview" };
     static const char* const left[] = { "text", "image", "foreignObject" };
-    Span name = svg->nodes[node].name;
+    Span name = svg->xml.nodes[node].name;
     for (size_t i = 0; i < sizeof silent / sizeof silent[0]; i++) {
         if (Span_Is(name, silent[i])) {
             return;
         }
     }
-    Span display = GetProperty(svg, node, "display"), opacity = GetProperty(svg, node, "opacity");
+    Span display = Xml_GetProperty(&svg->xml, node, "display"), opacity = Xml_GetProperty(&svg->xml, node, "opacity");
     double seen = 1.0;
     ReadNumbers(opacity, &seen, 1);
     if ((display.at != NULL && Span_Is(display, "none")) || seen <= 0.0) {
@@ -1141,24 +809,17 @@ static void DrawNode(Svg* svg, int32_t node, const Pen* outer)
     }
     Pen pen = *outer;
     Inherit(svg, node, &pen);
-    Span reference = GetProperty(svg, node, "clip-path");
+    Span reference = Xml_GetProperty(&svg->xml, node, "clip-path");
     bool isClipped = reference.at != NULL && BeginClip(svg, reference, pen);
-    if (GetProperty(svg, node, "mask").at != NULL && !Span_Is(GetProperty(svg, node, "mask"), "none")) {
+    if (Xml_GetProperty(&svg->xml, node, "mask").at != NULL &&
+        !Span_Is(Xml_GetProperty(&svg->xml, node, "mask"), "none")) {
         Import_Skip(svg->drawing, "mask");
     }
     svg->pen = &pen;
     if (Span_Is(name, "use")) {
         DrawUse(svg, node, pen);
     } else if (Span_Is(name, "svg")) {
-        double box[4] = { 0.0, 0.0, 100.0, 100.0 };
-        ReadNumbers(GetAttribute(svg, node, "viewBox"), box, 4);
-        Affine move = { { 1, 0, 0, 1, LengthOf(svg, node, "x"), LengthOf(svg, node, "y") } };
-        pen.affine = Affine_Multiply(Affine_Multiply(pen.affine, move),
-                                     FitViewBox(GetAttribute(svg, node, "viewBox"),
-                                                GetAttribute(svg, node, "preserveAspectRatio"),
-                                                GetLength(GetAttribute(svg, node, "width"), box[2], box[2]),
-                                                GetLength(GetAttribute(svg, node, "height"), box[3], box[3])));
-        DrawChildren(svg, node, &pen);
+        DrawView(svg, node, node, pen);
     } else if (Span_Is(name, "g") || Span_Is(name, "a") || Span_Is(name, "switch")) {
         DrawChildren(svg, node, &pen);
     } else if (svg->into != NULL) {
@@ -1171,9 +832,7 @@ static void DrawNode(Svg* svg, int32_t node, const Pen* outer)
         Import_Skip(svg->drawing, kind);
     }
     if (isClipped) {
-        Clip* clip = &svg->clips[--svg->clipCount];
-        free(clip->points);
-        free(clip->starts);
+        EndClip(svg);
     }
     svg->depth--;
 }
@@ -1182,18 +841,20 @@ void Import_ReadSvg(Import* drawing, const char* text, const char* end)
 {
     Svg svg = { .drawing = drawing };
     int32_t root = 0;
-    ReadXml(&svg, text, end);
-    while (root < svg.nodeCount && !Span_Is(svg.nodes[root].name, "svg")) {
+    bool isRead = Xml_Read(&svg.xml, drawing, text, end);
+    while (root < svg.xml.nodeCount && !Span_Is(svg.xml.nodes[root].name, "svg")) {
         root++;
     }
-    if (root == svg.nodeCount) {
+    if (root == svg.xml.nodeCount) {
         Import_Fail(drawing, "this is no SVG");
-    } else if (IndexNodes(&svg)) {
+    } else if (isRead) {
         /* Root: pixels, or millimetres where its size has a unit. */
-        Span width = GetAttribute(&svg, root, "width"), height = GetAttribute(&svg, root, "height"),
-             viewBox = GetAttribute(&svg, root, "viewBox");
+        Span width = Xml_GetAttribute(&svg.xml, root, "width"), height = Xml_GetAttribute(&svg.xml, root, "height"),
+             viewBox = Xml_GetAttribute(&svg.xml, root, "viewBox");
         double number, box[4] = { 0.0, 0.0, 100.0, 100.0 };
         bool hasBox = ReadNumbers(viewBox, box, 4) == 4;
+        svg.view[0] = hasBox ? box[2] : GetLength(width, 100.0, 100.0);
+        svg.view[1] = hasBox ? box[3] : GetLength(height, 100.0, 100.0);
         const char* unit = width.at != NULL ? Import_ReadNumber(width.at, width.at + width.length, &number) : NULL;
         Span name = { unit, unit != NULL ? (int32_t)(width.at + width.length - unit) : 0 };
         drawing->isSized = unit != NULL && GetUnit(name) > 0.0 && !Span_Is(name, "px");
@@ -1201,20 +862,17 @@ void Import_ReadSvg(Import* drawing, const char* text, const char* end)
         Pen pen = { .affine = { { 1, 0, 0, -1, 0, 0 } } };
         if (hasBox) {
             double size[2] = { GetLength(width, box[2], box[2]), GetLength(height, box[3], box[3]) };
-            pen.affine = Affine_Multiply(
-                pen.affine, FitViewBox(viewBox, GetAttribute(&svg, root, "preserveAspectRatio"), size[0], size[1]));
+            pen.affine =
+                Affine_Multiply(pen.affine, FitViewBox(viewBox, Xml_GetAttribute(&svg.xml, root, "preserveAspectRatio"),
+                                                       size[0], size[1]));
         }
         Inherit(&svg, root, &pen);
         svg.pen = &pen;
         DrawChildren(&svg, root, &pen);
     }
-    free(svg.attributes);
-    free(svg.nodes);
-    free(svg.rules);
-    free(svg.ids);
+    Xml_Free(&svg.xml);
     free(svg.line);
-    for (int32_t i = 0; i < svg.clipCount; i++) {
-        free(svg.clips[i].points);
-        free(svg.clips[i].starts);
+    while (svg.clipCount > 0) {
+        EndClip(&svg);
     }
 }

@@ -25,6 +25,17 @@ static void ReadAndJoin(const char* text)
     assert_true(Import_Join(&drawing, distance));
 }
 
+static const char* TextOf(FILE* file)
+{
+    static char text[400000];
+    assert_non_null(file);
+    rewind(file);
+    size_t size = fread(text, 1, sizeof text - 1, file);
+    text[size] = 0;
+    fclose(file);
+    return text;
+}
+
 /* One line says why, and it holds the words. */
 static void Refuse(const char* text, const char* words)
 {
@@ -41,6 +52,15 @@ static int CountUse(int32_t use)
         count += drawing.lines[i].use == use;
     }
     return count;
+}
+
+static void CheckUses(const char* text, int cut, int mountain, int valley, int score)
+{
+    ReadAndJoin(text);
+    assert_int_equal(CountUse(IMPORT_CUT), cut);
+    assert_int_equal(CountUse(IMPORT_MOUNTAIN), mountain);
+    assert_int_equal(CountUse(IMPORT_VALLEY), valley);
+    assert_int_equal(CountUse(IMPORT_SCORE), score);
 }
 
 static double LengthOf(int32_t line)
@@ -198,7 +218,7 @@ TEST(Units)
         { "<svg width='5in' height='5in' viewBox='0 0 50 50'><rect width='40' height='40'/></svg>", 4 * 25.4, 1 },
         { "<svg width='36pt' height='36pt'><rect width='1cm' height='10mm'/></svg>", 10.0, 1 },
         { "<svg><rect width='96' height='96'/></svg>", 25.4, 0 },
-        { "<svg width='100%' viewBox='0 0 192 192'><rect width='96' height='50%'/></svg>", 25.4, 0 },
+        { "<svg width='100%' viewBox='0 0 192 384'><rect width='48' height='25%'/></svg>", 25.4, 0 },
         { "<svg width='10cm' height='5cm' viewBox='0 0 10 10'><rect width='4' height='4'/></svg>", 20.0,
           1 }, /* as large as it fits */
         { "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n0\nENDSEC\n" DXF "0\nLINE\n10\n1\n11\n3\n" DXF_END, 2 * 25.4,
@@ -232,6 +252,11 @@ TEST(UseAndTransforms)
     CheckPoint(0, 0, 10, -20);
     CheckPoint(0, 1, 40, -50);
 
+    /* Nothing of it outside its box, which per cents are of; a use may give the box. */
+    Read(SVG "<svg id='t' x='10' y='20' width='50' height='40'><line y1='50%' x2='200' y2='50%'/></svg><use href='#t' "
+             "x='20' width='60'/></svg>");
+    CheckPoint(0, -1, 60, -40);
+    CheckPoint(1, -1, 90, -40);
     Read(SVG "<g transform='translate(10,20) rotate(90)'><g transform='scale(2)'><path d='M0 0L3 1'/></g></g>"
              "<path transform='rotate(180 50 50)' d='M0 0L10 0'/><path transform='matrix(1 0 .5 1 0 0) skewX(45)' "
              "d='M0 0L0 4'/></svg>");
@@ -258,13 +283,12 @@ TEST(UseAndTransforms)
 
 TEST(HiddenAndClipped)
 {
-    Read(SVG "<style>.no { display: none } #w, .u { stroke: red; fill: none }</style><path d='M0 0h100'/>"
-             "<g style='display:none'><circle r='30'/></g><rect class='no' width='5' height='5'/><g "
-             "visibility='hidden'><path d='M1 1h2'/>"
-             "<path visibility='visible' d='M0 50h10'/></g><path fill='none' d='M3 3h9v9z'/><g opacity='0'><path d='M0 "
-             "3h9'/></g>"
-             "<pattern><circle r='4'/></pattern><marker><path d='M0 "
-             "0h1v1z'/></marker><text>a</text><image/><text>b</text></svg>");
+    Read(SVG
+         "<style>.no { display: none } #w, .u { stroke: red; fill: none }</style><path d='M0 0h100'/><g style="
+         "'display:none'><circle r='30'/></g><rect class='no' width='5' height='5'/><g visibility='hidden'><path d='"
+         "M1 1h2'/><path visibility='visible' d='M0 50h10'/></g><path fill='none' d='M3 3h9v9z'/><g opacity='0'><pat"
+         "h d='M0 3h9'/></g><pattern><circle r='4'/></pattern><marker><path d='M0 0h1v1z'/></marker><text>a</text><i"
+         "mage/><text>b</text></svg>");
     assert_int_equal(drawing.lineCount, 2);
     assert_non_null(strstr(drawing.note, "2 x text"));
     assert_non_null(strstr(drawing.note, "1 x image"));
@@ -297,11 +321,7 @@ TEST(Uses)
         "<path d='M0 0H100V100H0z' fill='white'/></svg>";
     Read(text);
     assert_int_equal(drawing.styleCount, 5);
-    ReadAndJoin(text);
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
-    assert_int_equal(CountUse(IMPORT_MOUNTAIN), 1);
-    assert_int_equal(CountUse(IMPORT_VALLEY), 1);
-    assert_int_equal(CountUse(IMPORT_SCORE), 1);
+    CheckUses(text, 1, 1, 1, 1);
     Read(text);
     for (int32_t i = 0; i < drawing.styleCount; i++) {
         drawing.styles[i].use = strcmp(drawing.styles[i].name, "#ff0000") == 0 ? IMPORT_CUT : IMPORT_NONE;
@@ -311,14 +331,12 @@ TEST(Uses)
     CheckPoint(0, 0, 5, -50);
 
     /* Red alone is a laser's cut; layers say more than colours. */
-    ReadAndJoin(SVG "<path d='M0 0h9' stroke='red'/><path d='M0 9h9' stroke='blue'/></svg>");
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
-    assert_int_equal(CountUse(IMPORT_VALLEY), 1);
-    ReadAndJoin(
-        SVG "<g inkscape:label='Mountain folds'><path d='M0 0h9'/></g><g id='Cut'><path d='M0 9h9' stroke='blue'/></g>"
-            "<path d='M0 20h9' stroke='#000' stroke-dasharray='4,1,1,1'/></svg>");
-    assert_int_equal(CountUse(IMPORT_MOUNTAIN), 2);
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
+    CheckUses(SVG "<path d='M0 0h9' stroke='red'/><path d='M0 9h9' stroke='blue'/></svg>", 1, 0, 1, 0);
+    CheckUses(SVG "<g inkscape:label='Mountain &amp; folds'><path d='M0 0h9'/></g><g id='Cut'><path d='M0 9h9' "
+                  "stroke='blue'/></g><path d='M0 20h9' stroke='#000' stroke-dasharray='4,1,1,1'/></svg>",
+              1, 2, 0, 0);
+    /* Entities, colours, style sheets, paint that is not seen. */
+    CheckUses(TextOf(fopen("tests/data/styles.svg", "rb")), 2, 4, 4, 3);
     /* Cuts come first, inner ones before outer ones. */
     ReadAndJoin(SVG "<path d='M1 1h90v90h-90z'/><path d='M50 2v5' stroke='red'/><circle cx='50' cy='50' r='9'/><circle "
                     "cx='50' cy='50' r='30'/></svg>");
@@ -333,19 +351,14 @@ TEST(Uses)
 TEST(Dxf)
 {
     ReadAndJoin(
-        "  0\r\nSECTION\r\n  "
-        "2\r\nTABLES\r\n0\r\nLAYER\r\n2\r\nFold\r\n62\r\n7\r\n0\r\nLAYER\r\n2\r\noff\r\n62\r\n-7\r\n0\r\nENDSEC\r\n"
-        "0\r\nSECTION\r\n2\r\nBLOCKS\r\n0\r\nBLOCK\r\n2\r\nB\r\n10\r\n1\r\n20\r\n0\r\n0\r\nLINE\r\n8\r\n0\r\n10\r\n1\r"
-        "\n20\r\n0\r\n11\r\n2\r\n21\r\n0\r\n"
-        "0\r\nENDBLK\r\n0\r\nENDSEC\r\n0\r\nSECTION\r\n2\r\nENTITIES\r\n"
-        "0\r\nLINE\r\n8\r\nFold\r\n10\r\n0\r\n20\r\n0\r\n11\r\n10\r\n21\r\n0\r\n"
-        "0\r\nLINE\r\n8\r\noff\r\n10\r\n0\r\n20\r\n0\r\n11\r\n10\r\n21\r\n10\r\n"
-        "0\r\nPOLYLINE\r\n8\r\n0\r\n70\r\n1\r\n0\r\nVERTEX\r\n10\r\n0\r\n20\r\n20\r\n0\r\nVERTEX\r\n10\r\n5\r\n20\r\n20"
-        "\r\n"
-        "0\r\nVERTEX\r\n10\r\n5\r\n20\r\n25\r\n0\r\nSEQEND\r\n"
-        "0\r\nINSERT\r\n2\r\nB\r\n10\r\n50\r\n20\r\n60\r\n41\r\n3\r\n42\r\n3\r\n50\r\n90\r\n70\r\n2\r\n71\r\n1\r\n44\r"
-        "\n10\r\n"
-        "0\r\nTEXT\r\n10\r\n1\r\n1\r\nhello\r\n0\r\nENDSEC\r\n0\r\nEOF\r\n");
+        "  0\r\nSECTION\r\n  2\r\nTABLES\r\n0\r\nLAYER\r\n2\r\nFold\r\n62\r\n7\r\n0\r\nLAYER\r\n2\r\noff\r\n62\r"
+        "\n-7\r\n0\r\nENDSEC\r\n0\r\nSECTION\r\n2\r\nBLOCKS\r\n0\r\nBLOCK\r\n2\r\nB\r\n10\r\n1\r\n20\r\n0\r\n0\r"
+        "\nLINE\r\n8\r\n0\r\n10\r\n1\r\n20\r\n0\r\n11\r\n2\r\n21\r\n0\r\n0\r\nENDBLK\r\n0\r\nENDSEC\r\n0\r\nSECTI"
+        "ON\r\n2\r\nENTITIES\r\n0\r\nLINE\r\n8\r\nFold\r\n10\r\n0\r\n20\r\n0\r\n11\r\n10\r\n21\r\n0\r\n0\r\nLINE"
+        "\r\n8\r\noff\r\n10\r\n0\r\n20\r\n0\r\n11\r\n10\r\n21\r\n10\r\n0\r\nPOLYLINE\r\n8\r\n0\r\n70\r\n1\r\n0\r"
+        "\nVERTEX\r\n10\r\n0\r\n20\r\n20\r\n0\r\nVERTEX\r\n10\r\n5\r\n20\r\n20\r\n0\r\nVERTEX\r\n10\r\n5\r\n20\r"
+        "\n25\r\n0\r\nSEQEND\r\n0\r\nINSERT\r\n2\r\nB\r\n10\r\n50\r\n20\r\n60\r\n41\r\n3\r\n42\r\n3\r\n50\r\n90\r"
+        "\n70\r\n2\r\n71\r\n1\r\n44\r\n10\r\n0\r\nTEXT\r\n10\r\n1\r\n1\r\nhello\r\n0\r\nENDSEC\r\n0\r\nEOF\r\n");
     assert_int_equal(CountUse(IMPORT_SCORE), 1);
     assert_int_equal(CountUse(IMPORT_CUT), 3);
     assert_non_null(strstr(drawing.note, "1 x hidden"));
@@ -404,22 +417,16 @@ TEST(Fold)
         "}",
         "not flat");
     /* Faces alone; angles; no assignment at all. */
-    ReadAndJoin("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1]],\"faces_vertices\":[[0,1,2],[0,2,3]]}");
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
-    assert_int_equal(CountUse(IMPORT_SCORE), 1);
-    ReadAndJoin("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1]],\"faces_vertices\":[[0,1,2],[0,2,3]],"
-                "\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],\"edges_foldAngle\":[0,0,0,0,-90]}");
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
-    assert_int_equal(CountUse(IMPORT_MOUNTAIN), 1);
-    ReadAndJoin("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1],[0.5,0.5]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],["
-                "0,4],[1,4],[2,4],[3,4]]}");
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
-    assert_int_equal(CountUse(IMPORT_SCORE), 2); /* both diagonals go straight through the middle */
+    CheckUses("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1]],\"faces_vertices\":[[0,1,2],[0,2,3]]}", 1, 0, 0, 1);
+    CheckUses("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1]],\"faces_vertices\":[[0,1,2],[0,2,3]],"
+              "\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],[0,2]],\"edges_foldAngle\":[0,0,0,0,-90]}",
+              1, 1, 0, 0);
+    CheckUses("{\"vertices_coords\":[[0,0],[1,0],[1,1],[0,1],[0.5,0.5]],\"edges_vertices\":[[0,1],[1,2],[2,3],[3,0],["
+              "0,4],[1,4],[2,4],[3,4]]}",
+              1, 0, 0, 2); /* both diagonals go straight through the middle */
     /* A cut wins over the crease under it. */
-    ReadAndJoin(
-        "{\"vertices_coords\":[[0,0],[1,0]],\"edges_vertices\":[[0,1],[0,1]],\"edges_assignment\":[\"M\",\"C\"]}");
-    assert_int_equal(drawing.lineCount, 1);
-    assert_int_equal(CountUse(IMPORT_CUT), 1);
+    CheckUses("{\"vertices_coords\":[[0,0],[1,0]],\"edges_vertices\":[[0,1],[0,1]],\"edges_assignment\":[\"M\",\"C\"]}",
+              1, 0, 0, 0);
     Refuse("{\"vertices_coords\":[[0,0],[1,0]],\"edges_vertices\":[[0,1],[1,9]]}", "vertex 9");
     Refuse("{\"vertices_coords\":[[0,0],[1,0],null],\"edges_vertices\":[[0,1],[1,2]]}", "vertex 2");
     Refuse("[1,2]", "list");
@@ -432,6 +439,10 @@ TEST(Refusals)
 {
     Refuse("", "empty");
     Refuse("solid cube", "no SVG");
+    Refuse("\xff\xfe<s", "UTF-16");
+    Refuse("\x1f\x8b\x08", "gunzip");
+    Refuse("<!DOCTYPE svg [<!ENTITY a '&b;&b;&b;&b;&b;'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;'>]><svg id='&a;&a;&a;'/>",
+           "letters");
     Refuse("<p>no</p>", "no SVG");
     Refuse(SVG "<path d='M50 50h0'/></svg>", "no line");
     Refuse(SVG "<path transform='scale(1e300)' d='M50 50h1e9'/></svg>", "beyond");
@@ -521,16 +532,6 @@ TEST(Pieces)
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2 * SIDE * SIDE + 1);
 }
 
-static void ReadFile(FILE* file)
-{
-    static char text[400000];
-    rewind(file);
-    size_t size = fread(text, 1, sizeof text - 1, file);
-    text[size] = 0;
-    fclose(file);
-    ReadAndJoin(text);
-}
-
 /* A slit, and a square that comes off and moves away as a sheet: written and read again, the lines are the same. */
 TEST(Export)
 {
@@ -549,10 +550,9 @@ TEST(Export)
         Import taken;
         assert_true(Export_Take(host.world, sheets, 2, &taken));
         FILE* file = tmpfile();
-        assert_non_null(file);
         assert_true(form == 0 ? Export_WriteSvg(&taken, file) : Export_WriteFold(&taken, file));
         Import_Free(&taken);
-        ReadFile(file);
+        ReadAndJoin(TextOf(file));
         assert_int_equal(drawing.isSized, 1);
         assert_int_equal(CountUse(IMPORT_CUT), drawing.lineCount);
         assert_int_equal(drawing.lineCount, 3); /* inner lines first */
