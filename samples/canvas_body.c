@@ -3,7 +3,7 @@
 #include <GL/gl.h>
 #include <math.h>
 
-/* Corners of the circles of a body: small ones look round with fewer. */
+/* Corners of the circles of a body: small balls, of which there may be many, look round with fewer. */
 enum { SIDES = 40, SMALL_SIDES = 12 };
 
 static const float smallRadius = 0.03f; /* m */
@@ -30,10 +30,10 @@ static void DrawBox(const float size[3])
     }
 }
 
-/* Of a ball: the part between two heights of its axis, from -1 to 1, moved up by `lift`. */
-static void DrawCap(float radius, float from, float to, float lift)
+/* Draws the part of a ball between two heights of its axis, from -1 to 1, moved up by `lift`. */
+static void DrawCap(float radius, float from, float to, float lift, int sides)
 {
-    int sides = radius < smallRadius ? SMALL_SIDES : SIDES, rings = sides / 2;
+    int rings = sides / 2;
     float first = asinf(from), last = asinf(to), step = (last - first) / (float)rings;
     for (int i = 0; i < rings; i++) {
         float low = first + step * (float)i, high = first + step * (float)(i + 1);
@@ -122,11 +122,11 @@ void CanvasBody_Draw(const CanvasBody* body)
     if (body->shape == CANVAS_PLANE) {
         DrawPlane(body->size[0], body->size[1]);
     } else if (body->shape == CANVAS_SPHERE) {
-        DrawCap(body->radius, -1.0f, 1.0f, 0.0f);
+        DrawCap(body->radius, -1.0f, 1.0f, 0.0f, body->radius < smallRadius ? SMALL_SIDES : SIDES);
     } else if (body->shape == CANVAS_CAPSULE) {
         DrawTube(body->radius, body->height);
-        DrawCap(body->radius, 0.0f, 1.0f, 0.5f * body->height);
-        DrawCap(body->radius, -1.0f, 0.0f, -0.5f * body->height);
+        DrawCap(body->radius, 0.0f, 1.0f, 0.5f * body->height, SIDES);
+        DrawCap(body->radius, -1.0f, 0.0f, -0.5f * body->height, SIDES);
     } else if (body->shape == CANVAS_BOX) {
         DrawBox(body->size);
     } else if (body->shape == CANVAS_CYLINDER) {

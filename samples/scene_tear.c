@@ -273,7 +273,7 @@ static void RipPoster(Scene* scene)
 
 const SceneType posterScene = {
     .name = "poster",
-    .about = "a hand rips a strip of a poster off a wall",
+    .about = "a hand rips a strip out of a poster",
     .size = 0.3f,
     .ticks = 340,
     .substeps = 2,
