@@ -309,11 +309,46 @@ static void EvaluateSpline(const double (*points)[3], const double* knots, int o
     at[1] = d[degree][1] / d[degree][2];
 }
 
+/* The slope of a curve through points for a mm of way; at an open end it bends no more. */
+static void FindSlope(const double (*points)[3], int count, int i, bool isClosed, double slope[2])
+{
+    int before = i > 0 ? i - 1 : isClosed ? count - 1 : -1, after = i + 1 < count ? i + 1 : isClosed ? 0 : -1;
+    for (int k = 0; k < 2; k++) {
+        const double *a = points[before >= 0 ? before : i], *p = points[i], *b = points[after >= 0 ? after : i];
+        double ap = hypot(p[0] - a[0], p[1] - a[1]), pb = hypot(b[0] - p[0], b[1] - p[1]);
+        slope[k] = before < 0  ? (b[k] - p[k]) / pb
+                   : after < 0 ? (p[k] - a[k]) / ap
+                               : ((p[k] - a[k]) / ap * pb + (b[k] - p[k]) / pb * ap) / (ap + pb);
+    }
+}
+
+/* A smooth line through the points of a spline that has no others. */
+static void DrawThrough(Dxf* dxf, Affine affine, const double (*points)[3], int count, int32_t style, bool isClosed)
+{
+    Import_Begin(dxf->drawing, style);
+    AddAffine(dxf, affine, points[0][0], points[0][1]);
+    for (int i = 0; i + !isClosed < count; i++) {
+        const double *p = points[i], *q = points[(i + 1) % count];
+        double slopes[2][2], bezier[4][2], third = hypot(q[0] - p[0], q[1] - p[1]) / 3.0;
+        FindSlope(points, count, i, isClosed, slopes[0]);
+        FindSlope(points, count, (i + 1) % count, isClosed, slopes[1]);
+        for (int k = 0; k < 2; k++) {
+            bezier[0][k] = p[k];
+            bezier[1][k] = p[k] + third * slopes[0][k];
+            bezier[2][k] = q[k] - third * slopes[1][k];
+            bezier[3][k] = q[k];
+        }
+        Import_AddBezier(dxf->drawing, affine, (const double(*)[2])bezier, 3);
+    }
+    Import_End(dxf->drawing, isClosed);
+}
+
 static void DrawSpline(Dxf* dxf, Affine affine, int32_t first, int32_t style)
 {
     double *knots = malloc(2 * sizeof(double) * MOST_KNOTS), *weights = knots + MOST_KNOTS;
-    double(*points)[3] = malloc(sizeof(double[3]) * MOST_KNOTS);
-    int degree = (int)GetNumber(dxf, first, 71, 3.0), knotCount = 0, count = 0, weightCount = 0;
+    double(*points)[3] = malloc(2 * sizeof(double[3]) * MOST_KNOTS), (*fits)[3] = points + MOST_KNOTS;
+    int degree = (int)GetNumber(dxf, first, 71, 3.0), knotCount = 0, count = 0, weightCount = 0, fitCount = 0;
+    bool isClosed = ((int)GetNumber(dxf, first, 70, 0.0) & 1) != 0;
     for (int32_t i = first; knots != NULL && points != NULL && i < dxf->pairCount && dxf->pairs[i].code != 0; i++) {
         double number = NumberOf(&dxf->pairs[i], 0.0);
         if (dxf->pairs[i].code == 40 && knotCount < MOST_KNOTS) {
@@ -326,6 +361,13 @@ static void DrawSpline(Dxf* dxf, Affine affine, int32_t first, int32_t style)
             points[count - 1][1] = number;
         } else if (dxf->pairs[i].code == 41 && weightCount < MOST_KNOTS) {
             weights[weightCount++] = number;
+        } else if (dxf->pairs[i].code == 11 && fitCount < MOST_KNOTS) {
+            fits[fitCount][1] = 0.0;
+            fits[fitCount++][0] = number;
+        } else if (dxf->pairs[i].code == 21 && fitCount > 0) {
+            fits[fitCount - 1][1] = number;
+            bool isDouble = fitCount > 1 && memcmp(fits[fitCount - 1], fits[fitCount - 2], sizeof(double[2])) == 0;
+            fitCount -= isDouble;
         }
     }
     bool isFine = knots != NULL && points != NULL && degree >= 1 && degree < MOST_ORDER && count > degree &&
@@ -338,7 +380,10 @@ static void DrawSpline(Dxf* dxf, Affine affine, int32_t first, int32_t style)
         points[i][0] *= points[i][2];
         points[i][1] *= points[i][2];
     }
-    if (!isFine) {
+    if (!isFine && fitCount > 1 + isClosed) {
+        bool isDouble = memcmp(fits[0], fits[fitCount - 1], sizeof(double[2])) == 0;
+        DrawThrough(dxf, affine, (const double(*)[3])fits, fitCount - (isDouble && isClosed), style, isClosed);
+    } else if (!isFine) {
         Import_Skip(dxf->drawing, "spline without knots");
     } else {
         Import_Begin(dxf->drawing, style);
@@ -362,7 +407,7 @@ static void DrawSpline(Dxf* dxf, Affine affine, int32_t first, int32_t style)
                 AddAffine(dxf, affine, at[0], at[1]);
             }
         }
-        Import_End(dxf->drawing, ((int)GetNumber(dxf, first, 70, 0.0) & 1) != 0);
+        Import_End(dxf->drawing, isClosed);
     }
     free(knots);
     free(points);
