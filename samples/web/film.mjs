@@ -55,7 +55,9 @@ async function cut(tab, starts = 0) {
 const tab = await browser.open("?still", { viewport: { width: 640, height: 400 } });
 await tab.addStyleTag({ content: "#task, #dock, #more, #hint { display: none !important; }" });
 await tab.evaluate(() => { // the same film on any machine
-    const { simulation } = globalThis.game;
+    const { simulation, stage } = globalThis.game;
+    // More of the table than the page shows behind its buttons.
+    stage.camera.setViewOffset(innerWidth, innerHeight, -0.06 * innerWidth, 0.04 * innerHeight, 1.12 * innerWidth, 1.12 * innerHeight);
     simulation.world.setBudget({});
     simulation.measure = () => {};
 });
