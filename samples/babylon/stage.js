@@ -61,11 +61,12 @@ export function makeStage(canvas, { radius, position }, size) {
     const engine = new Engine(canvas, true), scene = new Scene(engine);
     scene.useRightHandedSystem = true; // as the library
     scene.clearColor = Color4.FromHexString("#d9d4cbff");
+    Object.assign(scene, { fogMode: Scene.FOGMODE_LINEAR, fogColor: Color3.FromHexString("#d9d4cb"), fogStart: 1.2, fogEnd: 4 }); // no horizon
     const camera = new ArcRotateCamera("camera", 1.1, 1.15, 1.0, new Vector3(0, 0.24, 0), scene);
     Object.assign(camera, { minZ: 0.05, lowerRadiusLimit: 0.6, upperRadiusLimit: 4, upperBetaLimit: 1.5, wheelDeltaPercentage: 0.01 });
     camera.attachControl();
     const shadows = makeLight(scene);
-    const ground = CreateGround("ground", { width: 8, height: 8 }, scene);
+    const ground = CreateGround("ground", { width: 16, height: 16 }, scene);
     ground.material = paint("ground", scene, "#a8a298");
     const ball = CreateSphere("ball", { diameter: 2 * radius - 0.004, segments: 48 }, scene);
     ball.position.fromArray(position);
