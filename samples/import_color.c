@@ -117,3 +117,19 @@ bool Import_ReadColor(Span text, int rgba[4])
     }
     return found != NULL;
 }
+
+/* Whether a colour is clearly the first of three. */
+static bool Leads(int a, int b, int c)
+{
+    return a >= 90 && 2 * b <= a && 2 * c <= a;
+}
+
+int32_t Import_UseOfColor(const int rgb[3])
+{
+    int r = rgb[0], g = rgb[1], b = rgb[2];
+    return r > 240 && g > 240 && b > 240                        ? IMPORT_NONE
+           : Leads(r, g, b) || (r >= 150 && g < 110 && b < 110) ? IMPORT_MOUNTAIN
+           : Leads(b, r, g) || (b >= 110 && r < 110 && g < 150) ? IMPORT_VALLEY
+           : Leads(g, r, b) || (g >= 110 && r < 110 && b < 110) ? IMPORT_SCORE
+                                                                : IMPORT_CUT;
+}

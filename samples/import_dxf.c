@@ -17,8 +17,9 @@ typedef struct Pair {
 
 typedef struct Layer {
     Span name;
-    int color; /* below 0: off */
-    bool isHidden, isDashed;
+    int color, rgb; /* color below 0: off; rgb -1: none */
+    bool isHidden;
+    int dashes;
 } Layer;
 
 typedef struct Block {
@@ -125,10 +126,17 @@ static double GetUnits(int code)
     return code >= 0 && code < (int)(sizeof sizes / sizeof sizes[0]) ? sizes[code] : 1.0;
 }
 
-static bool IsLineDashed(Span type)
+/* 1: dashed; 2: dashes and dots. */
+static int GetDashes(Span type)
 {
-    return type.length > 0 && (Span_Holds(type, "dash") || Span_Holds(type, "hidden") || Span_Holds(type, "dot") ||
-                               Span_Holds(type, "center"));
+    static const char *const mixed[] = { "dashdot", "dash dot", "dash-dot", "center", "divide", "phantom" },
+                             *const plain[] = { "dash", "hidden", "dot" };
+    for (size_t i = 0; type.length > 0 && i < sizeof mixed / sizeof mixed[0]; i++) {
+        if (Span_Holds(type, mixed[i])) {
+            return 2;
+        }
+    }
+    return type.length > 0 && (Span_Holds(type, plain[0]) || Span_Holds(type, plain[1]) || Span_Holds(type, plain[2]));
 }
 
 static void ReadTables(Dxf* dxf)
@@ -140,8 +148,8 @@ static void ReadTables(Dxf* dxf)
             dxf->drawing->scale = GetUnits(units);
             dxf->drawing->isSized = units != 0;
         } else if (IsBegin(pair, "LAYER") && dxf->layerCount < MOST_LAYERS) {
-            Layer layer = { GetText(dxf, i + 1, 2), (int)GetNumber(dxf, i + 1, 62, 7.0), false,
-                            IsLineDashed(GetText(dxf, i + 1, 6)) };
+            Layer layer = { GetText(dxf, i + 1, 2), (int)GetNumber(dxf, i + 1, 62, 7.0),
+                            (int)GetNumber(dxf, i + 1, 420, -1.0), false, GetDashes(GetText(dxf, i + 1, 6)) };
             layer.isHidden = layer.color < 0 || ((int)GetNumber(dxf, i + 1, 70, 0.0) & 1) != 0;
             dxf->layers[dxf->layerCount++] = layer;
         } else if (IsBegin(pair, "BLOCK")) {
@@ -172,24 +180,42 @@ static const Layer* FindLayer(const Dxf* dxf, Span name)
     return NULL;
 }
 
-/* False: the entity is not seen. Colours are AutoCAD's: 1 red, 3 green, 5 blue; others cut. A layer's name wins. */
+/* Of 24 bits, or by AutoCAD's number: 1 red, 3 green, 5 blue; from 10 to 249 hues, ten numbers for each 15 degrees. */
+static int32_t UseOfColor(int color, int rgb)
+{
+    if (rgb >= 0) { /* white is the pen of a black screen */
+        int32_t use = Import_UseOfColor((const int[]){ rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255 });
+        return use != IMPORT_NONE ? use : IMPORT_CUT;
+    }
+    int hue = color >= 10 && color < 250 ? color / 10 - 1 : -1;
+    return color == 1 || hue == 0 || hue == 23     ? IMPORT_MOUNTAIN
+           : color == 5 || (hue >= 15 && hue < 18) ? IMPORT_VALLEY
+           : color == 3 || (hue >= 7 && hue < 10)  ? IMPORT_SCORE
+                                                   : IMPORT_CUT;
+}
+
+/* False: the entity is not seen. A layer's name wins over colours and dashes. */
 static bool ChooseStyle(Dxf* dxf, int32_t first, int32_t* style)
 {
+    static const char* const kinds[] = { "", " dashed", " dash-dot" };
     Span name = GetText(dxf, first, 8), type = GetText(dxf, first, 6);
     const Layer* layer = FindLayer(dxf, name);
-    int color = (int)GetNumber(dxf, first, 62, 256.0);
+    int color = (int)GetNumber(dxf, first, 62, 256.0), rgb = (int)GetNumber(dxf, first, 420, -1.0);
     if ((layer != NULL && layer->isHidden) || color < 0 || GetNumber(dxf, first, 60, 0.0) != 0.0) {
         Import_Skip(dxf->drawing, "hidden");
         return false;
     }
-    color = color == 256 || color == 0 ? layer != NULL ? layer->color : 7 : color;
-    bool isDashed =
-        type.at != NULL && !Span_Holds(type, "bylayer") ? IsLineDashed(type) : layer != NULL && layer->isDashed;
-    int32_t use = color == 1 ? IMPORT_MOUNTAIN : color == 5 ? IMPORT_VALLEY : color == 3 ? IMPORT_SCORE : IMPORT_CUT;
-    use = Import_GetUse(name) >= 0 ? Import_GetUse(name) : use == IMPORT_CUT && isDashed ? IMPORT_VALLEY : use;
-    char text[IMPORT_TEXT];
-    snprintf(text, sizeof text, "layer %.*s, colour %d%s", (int)(name.length < 20 ? name.length : 20),
-             name.at != NULL ? name.at : "", color, isDashed ? " dashed" : "");
+    if (rgb < 0 && (color == 256 || color == 0)) {
+        color = layer != NULL ? layer->color : 7;
+        rgb = layer != NULL ? layer->rgb : -1;
+    }
+    int dashes = type.at != NULL && !Span_Holds(type, "bylayer") ? GetDashes(type) : layer != NULL ? layer->dashes : 0;
+    int32_t use = UseOfColor(color, rgb), named = Import_GetUse(name);
+    use = named >= 0 ? named : use == IMPORT_CUT && dashes > 0 ? dashes == 2 ? IMPORT_MOUNTAIN : IMPORT_VALLEY : use;
+    char text[IMPORT_TEXT], number[16];
+    snprintf(number, sizeof number, rgb >= 0 ? "#%06x" : "%d", rgb >= 0 ? (unsigned)rgb & 0xffffff : (unsigned)color);
+    snprintf(text, sizeof text, "layer %.*s, colour %s%s", (int)(name.length < 20 ? name.length : 20),
+             name.at != NULL ? name.at : "", number, kinds[dashes]);
     *style = Import_AddStyle(dxf->drawing, text, use);
     return true;
 }

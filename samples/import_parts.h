@@ -50,6 +50,9 @@ bool Span_Holds(Span span, const char* word);
 /* Red, green, blue and opacity from 0 to 255; false: not a colour, and black. */
 bool Import_ReadColor(Span text, int rgba[4]);
 
+/* Black cuts, red is a mountain, blue a valley, green a score; white is paper. */
+int32_t Import_UseOfColor(const int rgb[3]);
+
 /* The use that the name of a layer says; -1: none. */
 int32_t Import_GetUse(Span name);
 

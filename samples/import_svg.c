@@ -569,23 +569,6 @@ static bool DrawShape(Svg* svg, int32_t node)
 
 /* ---- Colours and layers ---- */
 
-/* Whether a colour is clearly the first of three. */
-static bool Leads(int a, int b, int c)
-{
-    return a >= 90 && 2 * b <= a && 2 * c <= a;
-}
-
-/* Black cuts, red is a mountain, blue a valley, green a score; white is paper. */
-static int32_t UseOfColor(const int rgba[4])
-{
-    int r = rgba[0], g = rgba[1], b = rgba[2];
-    return r > 240 && g > 240 && b > 240                        ? IMPORT_NONE
-           : Leads(r, g, b) || (r >= 150 && g < 110 && b < 110) ? IMPORT_MOUNTAIN
-           : Leads(b, r, g) || (b >= 110 && r < 110 && g < 150) ? IMPORT_VALLEY
-           : Leads(g, r, b) || (g >= 110 && r < 110 && b < 110) ? IMPORT_SCORE
-                                                                : IMPORT_CUT;
-}
-
 /* A paint that was not given is seen, if it is not transparent. */
 static bool IsSeen(Span paint, Span opacity)
 {
@@ -612,7 +595,7 @@ static bool ChooseStyle(Svg* svg, const Pen* pen)
     int dashes = isStroked ? ReadNumbers(pen->dashes, dash, 8) : 0;
     bool isDashed = dashes > 0 && dash[0] > 0.0 && (dashes == 1 || dash[1] > 0.0);
     char name[IMPORT_TEXT], color[24];
-    int32_t use = UseOfColor(rgba), layer = Import_GetUse(pen->layer);
+    int32_t use = Import_UseOfColor(rgba), layer = Import_GetUse(pen->layer);
     if (use == IMPORT_CUT && isDashed) { /* dash and dot: a mountain */
         use = dashes >= 4 ? IMPORT_MOUNTAIN : IMPORT_VALLEY;
     }

@@ -373,9 +373,9 @@ TEST(Dxf)
         assert_int_equal(found, 1);
     }
     /* A bulge of a quarter circle, an entity that is drawn on the back, and a spline through points. */
-    Read(DXF "0\nLWPOLYLINE\n90\n2\n10\n1\n20\n0\n42\n0.41421356237309503\n10\n0\n20\n1\n0\nCIRCLE\n10\n5\n20\n5\n"
-             "40\n1\n230\n-1\n0\nSPLINE\n11\n0\n21\n0\n11\n.5\n21\n0\n11\n1\n21\n0\n" DXF_END);
-    assert_int_equal(drawing.lineCount, 3);
+    Read(DXF "0\nLWPOLYLINE\n90\n2\n10\n1\n20\n0\n42\n0.41421356237309503\n10\n0\n20\n1\n0\nCIRCLE\n6\nDASHDOT\n10\n5\n"
+             "20\n5\n40\n1\n230\n-1\n0\nSPLINE\n420\n255\n11\n0\n21\n0\n11\n.5\n21\n0\n11\n1\n21\n0\n" DXF_END);
+    assert_true(CountUse(IMPORT_CUT) == 1 && CountUse(IMPORT_MOUNTAIN) == 1 && CountUse(IMPORT_VALLEY) == 1);
     for (int32_t i = 0; i < drawing.lines[0].count; i++) {
         assert_true(fabs(hypot(drawing.points[2 * i], drawing.points[2 * i + 1]) - 1.0) < 1e-9);
     }
