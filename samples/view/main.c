@@ -30,6 +30,7 @@ typedef struct Viewer {
     Moment* moments; /* of each KEEP_EVERYth tick, as far as it was played */
     int32_t momentCount;
     float turn, rise, away; /* of the camera: rad, rad, sizes */
+    int32_t steps;          /* of the keys that go nearer; each goes a fifth of the way */
     bool isPlaying, isTurning, isScrubbing, showsBudget;
     int32_t held; /* ticks a picture while an arrow key is down */
     int32_t mouse[2];
@@ -163,9 +164,10 @@ static void DrawBudget(const kiriWorld* world, Image* image)
 static bool Draw(Viewer* viewer)
 {
     Camera* camera = &viewer->scene.paced.camera;
-    camera->eye[0] = camera->target[0] + viewer->away * cosf(viewer->rise) * sinf(viewer->turn);
-    camera->eye[1] = camera->target[1] - viewer->away * cosf(viewer->rise) * cosf(viewer->turn);
-    camera->eye[2] = camera->target[2] + viewer->away * sinf(viewer->rise);
+    float away = viewer->away * powf(0.8f, (float)viewer->steps);
+    camera->eye[0] = camera->target[0] + away * cosf(viewer->rise) * sinf(viewer->turn);
+    camera->eye[1] = camera->target[1] - away * cosf(viewer->rise) * cosf(viewer->turn);
+    camera->eye[2] = camera->target[2] + away * sinf(viewer->rise);
     viewer->scene.type = &viewer->scene.paced;
     if (!Shot_Take(&viewer->shot, &viewer->scene, &viewer->options, &viewer->image)) {
         fprintf(stderr, "no memory for a picture\n");
@@ -217,8 +219,8 @@ static void TakeKey(Viewer* viewer, const GameEvent* event)
     const struct {
         int32_t key;
         bool* flag;
-    } flags[] = { { ' ', &viewer->isPlaying }, { 'r', &debug->regions }, { 'l', &debug->links },
-                  { 'c', &debug->cells },      { 'f', &debug->axes },    { 'k', &debug->contacts },
+    } flags[] = { { ' ', &viewer->isPlaying }, { 'r', &debug->regions },     { 'l', &debug->links },
+                  { 'c', &debug->cells },      { 'f', &debug->axes },        { 'k', &debug->contacts },
                   { 'o', &debug->points },     { 'b', &viewer->showsBudget } };
     for (size_t i = 0; isDown && i < sizeof flags / sizeof flags[0]; i++) {
         *flags[i].flag ^= event->key == flags[i].key;
@@ -232,7 +234,7 @@ static void TakeKey(Viewer* viewer, const GameEvent* event)
         viewer->isPlaying = false;
     }
     if (isDown && (event->key == GAME_KEY_UP || event->key == GAME_KEY_DOWN)) {
-        viewer->away *= event->key == GAME_KEY_UP ? 0.8f : 1.25f;
+        viewer->steps += event->key == GAME_KEY_UP ? 1 : -1;
     }
 }
 
@@ -287,12 +289,11 @@ static void PressKeys(Viewer* viewer, const char* keys)
 static bool Write(Viewer* viewer, int count, char** words)
 {
     const Options options = viewer->options;
-    const float away = viewer->away;
     for (int i = 0; i + 1 < count; i += 2) {
         char* keys;
         long tick = strtol(words[i], &keys, 10);
         viewer->options = options;
-        viewer->away = away;
+        viewer->steps = 0;
         viewer->isPlaying = viewer->showsBudget = false;
         viewer->held = 0;
         if (!GoTo(viewer, (int32_t)tick)) {
@@ -314,8 +315,10 @@ int main(int count, char** words)
         fprintf(
             stderr,
             "kiri-view FILE                        a recording or a save, in a window\n"
-            "kiri-view FILE [TICK[KEYS] PNG] ...   pictures of ticks after keys, without a window: 60rl, with arrows as <>+-\n\n"
-            "Space plays and stops; left and right go by ticks, up and down nearer and away; the mouse turns, or drags the bar.\n"
+            "kiri-view FILE [TICK[KEYS] PNG] ...   pictures of ticks after keys, without a window: 60rl, with arrows "
+            "as <>+-\n\n"
+            "Space plays and stops; left and right go by ticks, up and down nearer and away; the mouse turns, or drags "
+            "the bar.\n"
             "R regions, L links, C cells, F frames, K contacts, O collision points, W weights, B budget, Escape.\n");
         return 2;
     }
