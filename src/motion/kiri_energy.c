@@ -209,8 +209,7 @@ static double TakeEnergy(double kinetic, double* energy)
 /* Takes energy first from velocities that differ from a rigid body's, which keeps the momenta; then from the rotation
    as one body; and last from the mean velocity, unless the body is free. Along a swing, steps of second order take and
    give energy by turns. The energy that they lost, and that damping took, is the credit of the body: a limit without credit
-   would take each gain, and swings would fade. Contacts give no credit. A frame whose velocity is taken has it as
-   negative credit, until the next step: its pose has moved all the same, so it is not calm. */
+   would take each gain, and swings would fade. Contacts give no credit. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriEnergyStep* has = &solver->energy;
@@ -233,8 +232,6 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
         kiriFrameData* frame = &solver->after.data[f];
         frame->history.credit = frame->held ? 0.0 : left * frame->mass;
         if (!frame->held && has->gain > credit) {
-            const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
-            double moving = kiriFrame_KineticEnergy(frame, material);
             kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
             kiriVec3 round = kiriVec3_Cross(momentum->spin, arm);
             kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, mean), round);
@@ -244,7 +241,6 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
             frame->spin = kiriVec3_Scale(keepTurning, momentum->spin);
             frame->spin = kiriVec3_AddScaled(frame->spin, keepRest, spin);
             frame->rate = kiriMat3_Scale(keepRest, &frame->rate);
-            frame->history.credit = kiriMin(kiriFrame_KineticEnergy(frame, material) - moving, 0.0);
         }
     }
 }

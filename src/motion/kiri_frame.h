@@ -40,8 +40,8 @@ static inline void kiriWrench_Store(const kiriWrench* wrench, double force[3], d
    Turns are in world axes: for a rigid frame only the column u is used, for an affine frame each column of A has its
    own. */
 typedef struct kiriHistory {
-    double dt;         /* s: length of the last step; 0: no history, all other fields are zero but a negative credit */
-    double credit;     /* J: share of the energy that the body lost and may get back; negative: taken in this step */
+    double dt;         /* s: length of the last step; 0: no history, all other fields are zero */
+    double credit;     /* J: share of the energy that the body lost and may get back */
     int32_t isHalf;    /* the next step may be the second of a pair */
     int32_t isHeld;    /* the host moved the frame in the last step */
     kiriVec3 gain;     /* q, m/s: velocity gained from inner forces */
@@ -51,6 +51,11 @@ typedef struct kiriHistory {
     kiriMat3 turnLag;  /* P: rotation vector; affine: columns */
     kiriMat3 turnPull; /* T: torque; affine: acceleration of the columns */
 } kiriHistory;
+
+typedef struct kiriPose {
+    kiriVec3 x;
+    kiriMat3 A;
+} kiriPose;
 
 /* A control frame. It maps the rest point p to x + A (p - center). The center is the centroid of the region, so x is
    the centre of mass. */
@@ -69,6 +74,7 @@ typedef struct kiriFrameData {
     kiriVec3 velocity;       /* of x */
     kiriVec3 spin;           /* angular velocity, world */
     kiriMat3 rate;           /* derivative of A without spin x A, 1/s; zero for rigid frames */
+    kiriPose last;           /* at the end of the last tick that moved it */
     kiriVec3 force, torque;  /* from the host, for one tick */
     kiriHistory history;
     int32_t held;          /* the host moves the frame */
@@ -164,11 +170,6 @@ kiriVec3 kiriStepping_Inner(const kiriStepping* stepping, const kiriHistory* his
 kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory* history);
 
 /* A single frame: its mass, and its free prediction, the motion over a step without elements, pins and contacts. */
-
-typedef struct kiriPose {
-    kiriVec3 x;
-    kiriMat3 A;
-} kiriPose;
 
 /* Second moments of the mass in the frame's own axes, kg m^2. */
 typedef struct kiriMassMoments {

@@ -866,8 +866,7 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     if (isEuler || solver->isTouched || kiriSolver_AreTouching(solver, system, solver->poses.data)) {
         KIRI_TIMES(f, system->frameCount) {
-            kiriHistory* history = &solver->after.data[f].history;
-            *history = (kiriHistory){ .credit = kiriMin(history->credit, 0.0) };
+            KIRI_CLEAR(&solver->after.data[f].history);
         }
     }
 }

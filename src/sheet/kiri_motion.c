@@ -198,20 +198,24 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     return next;
 }
 
-/* Updates the calm time of moved pieces, from the mean over the material of the square of the energy by mass. So a flap
-   counts by more than its share. */
+/* Updates the calm time of moved pieces, from the mean over the material of the fourth power of its way in the tick. So a
+   flap counts by more than its share. Ways count, not velocities: a step that is not solved to the end leaves velocities
+   where nothing moves, and the limit of energy takes velocities of what moved. */
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
-    double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
+    double limit = dt * dt * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed; /* m^2 */
     KIRI_EACH_LISTED(body, sheet->solver->moved.bodies) {
         kiriRest* rest = &sheet->layout.pieces.data[body].rest;
         kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
         double spare = 0.0;
         KIRI_EACH_LISTED(at, frames) {
-            const kiriFrameData* frame = &sheet->frames.data[at];
-            double taken = kiriMin(frame->history.credit, 0.0); /* the pose moved with it */
-            double moves = (kiriFrame_KineticEnergy(frame, &sheet->settings.material) - taken) / frame->mass;
-            spare += frame->mass * (limit * limit - moves * moves);
+            kiriFrameData* frame = &sheet->frames.data[at];
+            kiriMassMoments moments = kiriFrame_MassMoments(frame, &sheet->settings.material);
+            const kiriPrediction last = { .moments = moments, .target = frame->last.A };
+            kiriVec3 way = kiriVec3_Sub(frame->x, frame->last.x);
+            double square = kiriVec3_Dot(way, way) + kiriPrediction_TurnSquared(&last, &frame->A) / frame->mass;
+            spare += frame->mass * (limit * limit - square * square);
+            frame->last = kiriPose_Of(frame);
         }
         rest->calm = spare > 0.0 ? rest->calm + dt : 0.0;
     }
