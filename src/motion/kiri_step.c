@@ -698,17 +698,6 @@ static void TurnFlow(kiriSolver* solver, const kiriSystem* system, int32_t k, in
     kiriBentStrain_Write(&pull, pulls);
 }
 
-/* Returns by how much tension stiffens a link against its normal gap. Without it a Gauss-Newton step swings taut cloth too
-   far, and is cut short. It is the tension at the start of the step, or less: false stretch while frames turn does not
-   count. The first system of a step must turn frames freely; not near contacts, where it would stretch links instead. */
-static double TautnessOf(const kiriSolver* solver, const kiriLink* link, const double* stiffness, const double* start,
-                         const double* strain, const double* pulling)
-{
-    double now = pulling[KIRI_STRETCH], least = kiriMin(start[KIRI_STRETCH] - strain[KIRI_STRETCH] + now, now);
-    bool isTaut = (solver->search.solved > 0 || solver->touch.isNear) && link->fold == 0 && least > 0.0;
-    return isTaut ? KIRI_TAUTNESS * (stiffness[KIRI_STRETCH] * least) / link->length : 0.0;
-}
-
 /* The linear model of an element at the poses. Its derivatives are in solver->J, its frames in solver->members. */
 typedef struct ElementModel {
     int32_t count; /* frames */
@@ -716,6 +705,43 @@ typedef struct ElementModel {
     double flow; /* J */
     double pulling[KIRI_MOST_STRAINS], springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
 } ElementModel;
+
+#define QUICK_BEND 0.1 /* rad: of a link in a step */
+
+/* Adds the second derivatives of the stretch of a taut link. Without them a Gauss-Newton step swings taut sheets too far, and is
+   cut short. The line between the frames turns; they leave it; bent, they are longer than the arc between them. The
+   tension is that at the start of the step, or less: false stretch while frames turn does not count. The first system
+   of a step must turn frames freely; not near contacts, where it would stretch links instead. Lines are held after a step
+   that was cut short: else stiff paper that snaps stays out of balance, and plastic links flow by tension that passes. */
+static void AddTension(kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain, ElementModel* model)
+{
+    const kiriLink* link = kiriElement_Link(system, k);
+    double now = model->pulling[KIRI_STRETCH], start = solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_STRETCH];
+    double least = kiriMin(start - strain[KIRI_STRETCH] + now, now);
+    if ((solver->search.solved == 0 && !solver->touch.isNear) || link->fold != 0 || !(least > 0.0)) {
+        return;
+    }
+    double taut = solver->stiffness.data[KIRI_MOST_STRAINS * k + KIRI_STRETCH] * least / link->length;
+    double bent = strain[KIRI_BENDING] - solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_BENDING];
+    if (fabs(bent) > QUICK_BEND || solver->search.scale >= KIRI_SHORT_STEP) { /* lines turn freely, too */
+        model->springs[KIRI_NORMAL_GAP] += KIRI_TAUTNESS * taut;
+        return;
+    }
+    KIRI_ASSERT(model->rows < KIRI_MOST_STRAINS);
+    double* J = &solver->J.data[solver->size * model->count * model->rows];
+    const kiriClampRow* clamp = kiriElement_Clamp(system, k);
+    const kiriPose *j = &solver->poses.data[solver->members.data[model->count - 1]],
+                   *i = clamp != NULL ? &clamp->pose : &solver->poses.data[solver->members.data[0]];
+    kiriVec3 line = kiriVec3_Normalize(kiriVec3_Sub(j->x, i->x)), d = kiriVec3_Add(i->A.d, j->A.d);
+    d = kiriVec3_Normalize(kiriVec3_AddScaled(d, -kiriVec3_Dot(d, line), line));
+    memset(J, 0, sizeof(double) * (size_t)(solver->size * model->count));
+    kiriVec3_StoreDoubles(J, kiriVec3_Scale(-1.0, d)); /* a clamp has one frame: the next line overwrites it */
+    kiriVec3_StoreDoubles(&J[solver->size * (model->count - 1)], d);
+    model->springs[KIRI_NORMAL_GAP] += (KIRI_TAUTNESS - 1.0) * taut;
+    model->springs[KIRI_BENDING] += taut * link->length * link->length / 12.0;
+    model->springs[model->rows] = taut;
+    model->pulls[model->rows++] = 0.0;
+}
 
 static void LinearizeElement(kiriSolver* solver, const kiriSystem* system, int32_t k, ElementModel* model)
 {
@@ -742,9 +768,9 @@ static void LinearizeElement(kiriSolver* solver, const kiriSystem* system, int32
         springs[e] = stiffness[e] + loss[e];
         model->pulls[e] = -stiffness[e] * model->pulling[e] - loss[e] * (strain[e] - start[e]);
     }
+    model->rows = rows;
     if (always == KIRI_FOLD) {
-        springs[KIRI_NORMAL_GAP] +=
-            TautnessOf(solver, kiriElement_Link(system, k), stiffness, start, strain, model->pulling);
+        AddTension(solver, system, k, strain, model);
     }
     if (model->flow > 0.0) {
         TurnFlow(solver, system, k, model->count, springs, model->pulls);
@@ -752,7 +778,6 @@ static void LinearizeElement(kiriSolver* solver, const kiriSystem* system, int32
     if (isStopping && strain[KIRI_NORMAL_STOP] == 0.0) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
-    model->rows = rows;
 }
 
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
