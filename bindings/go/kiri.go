@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.33.0"
+const Version = "0.34.0"
 
 type ResultCode int32
 

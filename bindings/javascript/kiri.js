@@ -8,7 +8,7 @@ import {
 export { KiriError, Rows, View, load, wasm };
 
 /** Of the header that this file is made from. */
-export const VERSION = "0.33.0";
+export const VERSION = "0.34.0";
 
 export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, ErrorDef: -2, ErrorId: -3, ErrorMesh:
     -4, ErrorState: -5, ErrorMemory: -6, Diverged: -7, ErrorLimit: -8, ErrorBuild: -9, ErrorData: -10, ErrorReplay:

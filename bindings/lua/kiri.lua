@@ -1,4 +1,4 @@
---- Kiri 0.33.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
+--- Kiri 0.34.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
 ---
 ---     local kiri = require "kiri"
 ---     local world = kiri.World()
@@ -242,7 +242,7 @@ void kiriDefaultDebugDraw(kiriDebugDraw* draw);
 kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
 ]]
 
-local kiri = {VERSION = "0.33.0"}
+local kiri = {VERSION = "0.34.0"}
 
 kiri.OK = 0
 kiri.PENDING = 1

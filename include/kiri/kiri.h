@@ -18,7 +18,7 @@
 
 /* Version of this header. kiriGetVersion() returns the version of the linked library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 33
+#define KIRI_VERSION_MINOR 34
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 

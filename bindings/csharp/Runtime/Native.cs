@@ -1419,7 +1419,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 3300;
+        public const int Version = 3400;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

@@ -1,6 +1,6 @@
 """Made from kiri.h by `make bindings`."""
 
-VERSION = "0.33.0"
+VERSION = "0.34.0"
 
 ARRAYS = {'kiriReplay': {'note': ('noteCount', 1)},
  'kiriSheetDef': {'restPositions': ('vertexCount', 2),

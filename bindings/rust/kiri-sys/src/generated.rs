@@ -18,7 +18,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 3300;
+pub const KIRI_VERSION: i32 = 3400;
 
 pub const KIRI_OK: i32 = 0;
 /// success; work is left for later ticks

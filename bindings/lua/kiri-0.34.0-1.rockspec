@@ -1,7 +1,7 @@
 -- luarocks make, in a checkout: builds the library by make, with g++ and Eigen.
 rockspec_format = "3.0"
 package = "kiri"
-version = "0.33.0-1"
+version = "0.34.0-1"
 source = {url = "git+file://."}
 description = {
     summary = "Cuts thin sheets while they move: the library Kiri for LuaJIT and LOVE",
