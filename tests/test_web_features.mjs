@@ -81,11 +81,16 @@ const FOLD = {
     edges_assignment: ["B", "B", "B", "B", "B", "B", "M"],
 };
 
+/** Presses the button until its question comes: the first time the browser may not yet tell of it. */
+async function askForFile(tab, left = 3) {
+    const asked = tab.waitForEvent("filechooser", { timeout: 10000 }).catch((error) => { if (left === 0) throw error; });
+    await press(tab, "Cut a file…");
+    return await asked ?? askForFile(tab, left - 1);
+}
+
 /** A rect and two squares within, in 0.8 of the sheet's width. */
 async function cutsSvg(tab) {
-    const asked = tab.waitForEvent("filechooser");
-    await press(tab, "Cut a file…");
-    await (await asked).setFiles({ name: "cut.svg", mimeType: "image/svg+xml", buffer: Buffer.from(SVG) });
+    await (await askForFile(tab)).setFiles({ name: "cut.svg", mimeType: "image/svg+xml", buffer: Buffer.from(SVG) });
     await tab.waitForFunction(() => globalThis.game.undos.length > 0);
     await settle(tab);
     const [rect, around, one, two, ...more] = await areas(tab);

@@ -108,7 +108,7 @@ export class Panel {
     }
 
     askFile() {
-        const input = document.createElement("input");
+        const input = this.input = document.createElement("input"); // else it may be collected before a file is chosen
         input.type = "file";
         input.accept = ".svg,.dxf,.fold,image/svg+xml,image/vnd.dxf,application/json";
         input.addEventListener("change", () => this.readFile(input.files[0]));
