@@ -144,7 +144,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     /* A soft contact rests within its reach. A fold may lie deeper: its push may not fall with the depth. */
     pushed += row->isFold ? row->reach : kiriClamp(2.0 * row->reach - depth, 0.0, row->reach);
     step->lowered = depth > pushed ? depth - pushed : 0.0;
-    /* The point may gain energy so. A small body of an island would throw the others: it gains less. A soft contact that did not push in the last step gains none: no step put energy into it. */
+    /* The point may gain energy so. A small body of an island would throw the others: it gains less. A soft contact that did
+       not push in the last step gains none: no step put energy into it. */
     bool isLate = IsSoft(row) && !(step->lowered > 0.0) && !(kiriVec3_Dot(row->force, row->normal) > 0.0);
     bool gains = !isLate && !kiriContact_IsMutual(step);
     double out = gains ? kiriMax(depth - step->lowered, 0.0) : 0.0;

@@ -210,8 +210,8 @@ static void CountCalm(kiriSheetData* sheet, double dt)
         double spare = 0.0;
         KIRI_EACH_LISTED(at, frames) {
             kiriFrameData* frame = &sheet->frames.data[at];
-            kiriMassMoments moments = kiriFrame_MassMoments(frame, &sheet->settings.material);
-            const kiriPrediction last = { .moments = moments, .target = frame->last.A };
+            const kiriPrediction last = { .moments = kiriFrame_MassMoments(frame, &sheet->settings.material),
+                                          .target = frame->last.A };
             kiriVec3 way = kiriVec3_Sub(frame->x, frame->last.x);
             double square = kiriVec3_Dot(way, way) + kiriPrediction_TurnSquared(&last, &frame->A) / frame->mass;
             spare += frame->mass * (limit * limit - square * square);

@@ -712,8 +712,7 @@ static double ShiftToPin(kiriSheetData* sheet, const kiriDrawnPin* drawn, double
     return kiriVec3_Length(missing);
 }
 
-/* Moves the corners of a pinned point until it is drawn at its pin; `missing` is what the skin misses without offsets. Returns
-   how far it was away, m. */
+/* Moves the corners of a pinned point until it is drawn at its pin. Returns its distance from the pin before, m. */
 static double MoveCorners(kiriSheetData* sheet, const kiriDrawnPin* drawn)
 {
     kiriVec3 missing = drawn->missing;

@@ -628,6 +628,7 @@ static void ShiftSheet(kiriSheetData* sheet, kiriVec3 origin)
 {
     KIRI_EACH(kiriFrameData, frame, sheet->frames) {
         Shift(&frame->x, origin);
+        Shift(&frame->last.x, origin);
         if (frame->held) {
             Shift(&frame->heldPosition, origin);
             Shift(&frame->goalPosition, origin);
