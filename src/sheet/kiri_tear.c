@@ -380,16 +380,16 @@ static double PullAcross(const kiriTensor* stress, kiriVec2 way)
     return kiriMax(way.y * way.y * stress->uu - 2.0 * way.x * way.y * stress->uv + way.x * way.x * stress->vv, 0.0);
 }
 
-/* Finds the direction with the largest squared stress across it, over the energy that it takes. opens: energy that the mean
-   stress can set free, as a share of the whole. Where it is small, as in a leg that is torn off by bending, the tear
-   goes straight on. */
+/* Finds the direction with the largest stress across it, over the energy that it takes: both modes of a slanted crack together
+   set free what grows with the stress, not with its square. opens: energy that the mean stress can set free, as a share of the
+   whole. Where it is small, as in a leg that is torn off by bending, the tear goes straight on. */
 static kiriVec2 AimTear(const kiriSheetData* sheet, kiriVec2 e, const kiriTensor* stress, double limit, double opens)
 {
     enum { WAYS = 12 };
     double most = 0.0, best = 0.0;
     for (int m = -WAYS; m <= WAYS; ++m) {
         kiriVec2 way = TurnedWay(e, limit * m / WAYS);
-        double across = PullAcross(stress, way), value = across * across / TakenAlong(sheet, way);
+        double value = PullAcross(stress, way) / TakenAlong(sheet, way);
         best = value > most ? limit * m / WAYS : best;
         most = kiriMax(value, most);
     }
