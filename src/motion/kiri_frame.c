@@ -210,10 +210,9 @@ double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* m
     return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
 }
 
-double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
+double kiriMat3_TurnSquared(const kiriMassMoments* moments, const kiriMat3* from, const kiriMat3* A)
 {
-    kiriMat3 off = kiriMat3_AddScaled(A, -1.0, &prediction->target);
-    kiriMat3 w = Weighted(&prediction->moments, &off);
+    kiriMat3 off = kiriMat3_AddScaled(A, -1.0, from), w = Weighted(moments, &off);
     return SumDot(&w, &off);
 }
 

@@ -229,8 +229,8 @@ kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* mater
 /* Returns the inertia tensor of a rigid frame, symmetric, in world axes. */
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Returns the sum over the region's mass points p of m |A p - A* p|^2, with A* the target. */
-double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A);
+/* Returns the sum over the region's mass points p of m |A p - B p|^2, with B = `from`. */
+double kiriMat3_TurnSquared(const kiriMassMoments* moments, const kiriMat3* from, const kiriMat3* A);
 
 /* Returns half the gradient of TurnSquared by the columns of A. */
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A);

@@ -341,8 +341,8 @@ static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* 
     KIRI_TIMES(f, system->frameCount) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
         kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
-        double moved =
-            system->frames[f].mass * kiriVec3_Dot(off, off) + kiriPrediction_TurnSquared(prediction, &poses[f].A);
+        double moved = system->frames[f].mass * kiriVec3_Dot(off, off) +
+                       kiriMat3_TurnSquared(&prediction->moments, &prediction->target, &poses[f].A);
         AddEnergy(&sum, 0.0, 0.5 * moved / (part * part));
     }
     return sum;

@@ -210,10 +210,9 @@ static void CountCalm(kiriSheetData* sheet, double dt)
         double spare = 0.0;
         KIRI_EACH_LISTED(at, frames) {
             kiriFrameData* frame = &sheet->frames.data[at];
-            const kiriPrediction last = { .moments = kiriFrame_MassMoments(frame, &sheet->settings.material),
-                                          .target = frame->last.A };
+            kiriMassMoments moments = kiriFrame_MassMoments(frame, &sheet->settings.material);
             kiriVec3 way = kiriVec3_Sub(frame->x, frame->last.x);
-            double square = kiriVec3_Dot(way, way) + kiriPrediction_TurnSquared(&last, &frame->A) / frame->mass;
+            double square = kiriVec3_Dot(way, way) + kiriMat3_TurnSquared(&moments, &frame->last.A, &frame->A) / frame->mass;
             spare += frame->mass * (limit * limit - square * square);
             frame->last = kiriPose_Of(frame);
         }

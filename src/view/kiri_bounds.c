@@ -10,8 +10,8 @@ enum { LEAF_SIZE = 8, NODE_SIZE = 4 }; /* triangles of a leaf, children of a nod
 double kiriBox_Farthest(const kiriBox* box, kiriVec3 from)
 {
     kiriVec3 a = kiriVec3_Sub(box->lower, from), b = kiriVec3_Sub(box->upper, from);
-    return kiriVec3_Length(kiriVec3_Make(fabs(a.x) > fabs(b.x) ? a.x : b.x, fabs(a.y) > fabs(b.y) ? a.y : b.y,
-                                         fabs(a.z) > fabs(b.z) ? a.z : b.z));
+    kiriVec3 least = kiriVec3_Least(a, b), most = kiriVec3_Most(a, b);
+    return kiriVec3_Length(kiriVec3_Most(most, kiriVec3_Scale(-1.0, least)));
 }
 
 void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
@@ -218,14 +218,11 @@ bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface)
 bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface)
 {
     bounds->patience = KIRI_BOUNDS_PATIENCE;
-    if (kiriBounds_IsFresh(bounds, surface)) {
-        return true;
+    bool isFresh = kiriBounds_IsFresh(bounds, surface), ok = isFresh || ReserveTree(bounds, memory, surface->triangleCount);
+    if (ok && !isFresh) {
+        MakeTree(bounds, surface);
     }
-    if (!ReserveTree(bounds, memory, surface->triangleCount)) {
-        return false;
-    }
-    MakeTree(bounds, surface);
-    return true;
+    return ok;
 }
 
 void kiriBounds_Ask(const kiriBounds* bounds)
@@ -281,17 +278,19 @@ kiriBox kiriBounds_All(const kiriBounds* bounds)
 
 /* ---- Search in all boxes that meet something --------------------------------------------------------------------- */
 
-/* Visits the triangles of a leaf. Returns false on out of memory. */
-typedef bool VisitFn(void* context, const int32_t* triangles, int32_t count);
+typedef struct BoxWalk BoxWalk;
 
-typedef struct BoxWalk {
+/* Visits the triangles of a leaf. Returns false on out of memory. */
+typedef bool VisitFn(const BoxWalk* walk, const int32_t* triangles, int32_t count);
+
+struct BoxWalk {
     const kiriBounds* bounds;
     const uint8_t* moves; /* of each node: 0 if it is left out. Null: none is */
     kiriMeetsFn* meets;
     const void* space;
     VisitFn* visit;
     void* context;
-} BoxWalk;
+};
 
 static bool WalkNode(const BoxWalk* walk, int32_t level, int32_t node)
 {
@@ -300,7 +299,7 @@ static bool WalkNode(const BoxWalk* walk, int32_t level, int32_t node)
     }
     int32_t first, end = LeafItems(walk->bounds, level, node, &first);
     if (level == 0) {
-        return walk->visit(walk->context, &walk->bounds->order.data[first], end - first);
+        return walk->visit(walk, &walk->bounds->order.data[first], end - first);
     }
     bool ok = true;
     KIRI_FROM_TO_WHILE(ok, i, first, end) {
@@ -317,27 +316,20 @@ static bool WalkTree(const BoxWalk* walk)
 
 typedef struct TriangleSearch {
     const kiriSurface* surface;
-    kiriMeetsFn* meets;
-    const void* space;
     bool takesBoxes;
     kiriMemory* memory;
     kiriIndices* found;
 } TriangleSearch;
 
-static bool PushTriangles(void* context, const int32_t* triangles, int32_t count)
+static bool PushTriangles(const BoxWalk* walk, const int32_t* triangles, int32_t count)
 {
-    const TriangleSearch* search = context;
+    const TriangleSearch* search = walk->context;
     bool ok = true;
     KIRI_TIMES_WHILE(ok, i, count) {
         bool isFound = !IsHidden(search->surface, triangles[i]);
         if (isFound && !search->takesBoxes) {
-            kiriBox box = KIRI_EMPTY_BOX;
-            kiriVec3 corner[3];
-            kiriSurface_Corners(search->surface, triangles[i], corner);
-            KIRI_EACH_CORNER(k) {
-                kiriBox_Add(&box, corner[k]);
-            }
-            isFound = search->meets(search->space, &box);
+            kiriBox box = BoxOfLeaf(search->surface, &triangles[i], 1);
+            isFound = walk->meets(walk->space, &box);
         }
         ok = !isFound || kiriArray_Push(search->memory, search->found, triangles[i]);
     }
@@ -360,7 +352,7 @@ bool kiriBounds_FindMoving(const kiriBounds* bounds, const kiriSurface* surface,
                            kiriIndices* found)
 {
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    TriangleSearch search = { surface, meets, context, takesBoxes, memory, found };
+    TriangleSearch search = { surface, takesBoxes, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
     return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }
@@ -444,8 +436,8 @@ typedef struct NearSearch {
     const kiriBounds* bounds;
     const kiriSurface* surface;
     kiriGroup group;
-    kiriVec3 from;
-    float near[3]; /* `from`, from surface->middle */
+    kiriVec3 from, size; /* the lower corner of the box, and its sides */
+    float near[2][3];    /* its corners, from surface->middle */
     double most, slack; /* m^2; m: by which distances to triangles may round up */
     kiriNearFn* look;
     void* context;
@@ -461,9 +453,9 @@ static void SearchLeaf(NearSearch* search, int32_t leaf)
         kiriLanes sum = kiriLanes_Splat(0.0f);
         KIRI_TIMES(m, 3) {
             const float *low = sides + LEAF_SIZE * m + i, *high = low + 3 * LEAF_SIZE;
-            kiriLanes from = kiriLanes_Splat(search->near[m]), off = kiriLanes_Splat(0.0f);
-            off = kiriLanes_Max(off, kiriLanes_Sub(kiriLanes_Load(low), from));
-            off = kiriLanes_Max(off, kiriLanes_Sub(from, kiriLanes_Load(high)));
+            kiriLanes off = kiriLanes_Splat(0.0f);
+            off = kiriLanes_Max(off, kiriLanes_Sub(kiriLanes_Load(low), kiriLanes_Splat(search->near[1][m])));
+            off = kiriLanes_Max(off, kiriLanes_Sub(kiriLanes_Splat(search->near[0][m]), kiriLanes_Load(high)));
             sum = kiriLanes_Add(sum, kiriLanes_Mul(off, off));
         }
         kiriLanes_Store(squares + i, sum);
@@ -493,7 +485,8 @@ static void SearchNode(NearSearch* search, int32_t level, int32_t node)
     KIRI_FROM_TO(i, first, end) {
         const kiriBox* box = &bounds->nodes.data[i];
         bool has = (bounds->groups.data[i] >> (search->group.group & 63) & 1) != 0;
-        kiriVec3 off = kiriVec3_Sub(search->from, kiriVec3_Most(kiriVec3_Least(search->from, box->upper), box->lower));
+        kiriVec3 at = kiriVec3_Most(kiriVec3_Least(search->from, box->upper), kiriVec3_Sub(box->lower, search->size));
+        kiriVec3 off = kiriVec3_Sub(search->from, at);
         squares[i - first] = has ? kiriVec3_Dot(off, off) : DBL_MAX;
     }
     for (;;) {
@@ -509,13 +502,14 @@ static void SearchNode(NearSearch* search, int32_t level, int32_t node)
     }
 }
 
-void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, kiriVec3 from,
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, const kiriBox* around,
                         double most, kiriNearFn* look, void* context)
 {
-    NearSearch search = { bounds, surface, group, from, { 0.0f }, most, 0.0, look, context };
-    kiriVec3 at = kiriVec3_Sub(from, surface->middle);
-    kiriVec3_Store(search.near, at);
-    search.slack = 4.0 * FLT_EPSILON * (kiriVec3_Length(at) + sqrt(most));
+    NearSearch search = { bounds, surface, group, around->lower, kiriVec3_Sub(around->upper, around->lower), { { 0.0f } },
+                          most, 0.0, look, context };
+    kiriVec3_Store(search.near[0], kiriVec3_Sub(around->lower, surface->middle));
+    kiriVec3_Store(search.near[1], kiriVec3_Sub(around->upper, surface->middle));
+    search.slack = 4.0 * FLT_EPSILON * (kiriBox_Farthest(around, surface->middle) + sqrt(most));
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface) && bounds->groups.count == bounds->nodes.count);
     KIRI_ASSERT(bounds->sides.count > 0 || bounds->nodes.count == 0);
     KIRI_ASSERT(group.group >= 0);
@@ -625,9 +619,9 @@ static void GetDrawnCorners(const kiriSurface* surface, int32_t triangle, kiriVe
 }
 
 /* The result does not depend on the order of triangles. */
-static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
+static bool FindFirstHit(const BoxWalk* walk, const int32_t* triangles, int32_t count)
 {
-    RaySearch* search = context;
+    RaySearch* search = walk->context;
     KIRI_TIMES(i, count) {
         kiriVec3 corner[3];
         double way, share[3];
@@ -646,19 +640,19 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
                          double maxDistance, kiriHit* hit)
 {
     RaySearch search = { surface, { origin, direction, maxDistance, 0.0 }, KIRI_NONE, { 0.0 } };
+    const BoxWalk walk = { bounds, NULL, MeetsRay, &search.ray, FindFirstHit, &search };
     KIRI_CLEAR(hit);
     hit->triangle = KIRI_NONE;
     if (kiriBounds_IsFresh(bounds, surface)) {
         if (bounds->nodes.count > 0) {
             kiriBox all = kiriBounds_All(bounds);
-            kiriVec3 most = kiriVec3_Most(kiriVec3_Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
-                                 kiriVec3_Make(fabs(origin.x), fabs(origin.y), fabs(origin.z)));
-            search.ray.slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z) + surface->detail.longest;
+            kiriBox_Add(&all, origin);
+            search.ray.slack = 1e-9 * kiriBox_Farthest(&all, (kiriVec3){ 0 }) + surface->detail.longest;
         }
-        (void)WalkTree(&(BoxWalk){ bounds, NULL, MeetsRay, &search.ray, FindFirstHit, &search });
+        (void)WalkTree(&walk);
     } else {
         KIRI_TIMES(t, surface->triangleCount) {
-            FindFirstHit(&search, &t, 1);
+            FindFirstHit(&walk, &t, 1);
         }
     }
     if (search.triangle == KIRI_NONE) {

@@ -115,9 +115,9 @@ bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface*
 /* Notes the sides of all triangles, likewise, unless the boxes have not changed since. Returns false on out of memory. */
 bool kiriBounds_FitSides(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface);
 
-/* Calls `look` for triangles of a group that may be near enough, nearer boxes first. `most`: square of the distance at the
-   start, m^2. */
-void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, kiriVec3 from,
+/* Calls `look` for triangles of a group whose boxes may be near enough to a box, nearer ones first. `most`: square of the
+   distance at the start, m^2. */
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, const kiriBox* around,
                         double most, kiriNearFn* look, void* context);
 
 /* Appends the triangles whose own box meets the searched space, in ascending order. Returns false on out of memory. */

@@ -37,20 +37,20 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
 {
     kiriSheetData* sheet = pair->upper.sheet;
     const kiriSettings *a = &sheet->settings, *b = &pair->lower.sheet->settings;
+    const kiriPlace3* lower = &pair->lower;
+    kiriVec3 under = kiriSurface_Blend(&lower->sheet->seen.surface, lower->vertex, lower->share);
     kiriTouch touch;
     KIRI_CLEAR(&touch);
     touch.key = pair->key;
     touch.point = touch.yield = KIRI_NONE;
-    memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
-    memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     touch.normal = pair->normal;
-    const kiriPlace3* lower = &pair->lower;
-    kiriVec3 under = kiriSurface_Blend(&lower->sheet->seen.surface, lower->vertex, lower->share);
     touch.offset = kiriVec3_Dot(pair->normal, under) + pair->distance;
     touch.velocity = pair->velocity;
     touch.friction = sqrt(a->friction * b->friction);
     touch.pushSpeed = pair->isFold ? FOLD_PUSH_SPEED : PUSH_SPEED;
     touch.felt = -1.0;
+    memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
+    memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     pair->touch = sheet->touches.found.count;
     return kiriTouches_Add(sheet, &touch);
 }
@@ -338,15 +338,13 @@ static bool BeginRooms(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     KIRI_ASSERT(probes->isFresh);
-    bool isBegun = probes->rooms.count > 0;
-    if (!isBegun && !kiriArrays_Resize(sheet->memory, probes->vertexPiece.count, &probes->marks, &probes->rooms)) {
-        return false;
-    }
-    KIRI_EACH_INDEX_WHILE(!isBegun, v, probes->rooms) {
+    bool begins = probes->rooms.count == 0;
+    bool ok = !begins || kiriArrays_Resize(sheet->memory, probes->vertexPiece.count, &probes->marks, &probes->rooms);
+    KIRI_EACH_INDEX_WHILE(ok && begins, v, probes->rooms) {
         probes->marks.data[v] = probes->isChosen.data[v] ? KIRI_FOLD_PROBE : 0;
         probes->rooms.data[v] = HUGE_VALF;
     }
-    return true;
+    return ok;
 }
 
 static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
@@ -358,15 +356,11 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         return false;
     }
     KIRI_TIMES(p, count) {
-        kiriBody body;
-        KIRI_CLEAR(&body);
-        body.sheet = sheet;
-        body.piece = p;
-        body.id = sheet->frames.data[sheet->layout.pieces.data[p].frame].id;
-        body.box = sheet->probes.boxes.data[p];
-        body.speed = sheet->probes.speeds.data[p];
-        body.asleep = !kiriPiece_IsAwake(&sheet->layout.pieces.data[p]);
-        pairs->bodies.data[first + p] = body;
+        const kiriPiece* piece = &sheet->layout.pieces.data[p];
+        pairs->bodies.data[first + p] = (kiriBody){ .sheet = sheet, .piece = p, .id = sheet->frames.data[piece->frame].id,
+                                                    .box = sheet->probes.boxes.data[p],
+                                                    .speed = sheet->probes.speeds.data[p],
+                                                    .asleep = !kiriPiece_IsAwake(piece) };
     }
     SumFrames(pairs, sheet, first);
     MeasureStir(pairs, sheet, first);
@@ -391,7 +385,6 @@ static double FastestOf(const kiriSheetData* sheet)
 
 static void AddWaking(Waking* waking, const kiriSheetData* sheet)
 {
-    double speed = FastestOf(sheet), thickness = sheet->settings.contactThickness;
     KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         const kiriBox* box = &sheet->probes.boxes.data[p];
         if (kiriPiece_IsAwake(&sheet->layout.pieces.data[p])) {
@@ -401,8 +394,8 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
             waking->any = true;
         }
     }
-    waking->speed = kiriMax(speed, waking->speed);
-    waking->thickness = kiriMax(thickness, waking->thickness);
+    waking->speed = kiriMax(FastestOf(sheet), waking->speed);
+    waking->thickness = kiriMax(sheet->settings.contactThickness, waking->thickness);
 }
 
 /* Finds everything that is awake. Fails on out of memory. */
@@ -511,12 +504,11 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
     return least;
 }
 
-/* Sets the nearest place on one triangle, if it lies within `most`. Returns the square of its distance, m^2. Between
-   pieces the normal is continuous over edges, where rounding chooses the triangle. In folds that would add energy. */
+/* Sets the nearest place on one triangle, if it lies within `most`; in a fold with its normal. Returns the square of its
+   distance, m^2. */
 static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, double most)
 {
-    const kiriSheetData* sheet = bodies[near->other].sheet;
-    const kiriSurface* surface = &sheet->seen.surface;
+    const kiriSurface* surface = &bodies[near->other].sheet->seen.surface;
     kiriVec3 x[3], p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
     kiriSurface_Corners(surface, triangle, x);
     double share[3];
@@ -526,10 +518,10 @@ static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, 
     if (squared <= most) {
         near->triangle = triangle;
         memcpy(near->share, share, sizeof(share));
-        near->normal = near->body != near->other
-                           ? kiriTriangle_SkinNormal(sheet, triangle, near->share)
-                           : kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
-        near->height = kiriVec3_Dot(near->normal, off);
+        if (near->body == near->other) {
+            near->normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
+            near->height = kiriVec3_Dot(near->normal, off);
+        }
     }
     return squared;
 }
@@ -572,9 +564,9 @@ static double DistanceAtRest(const kiriSheetData* sheet, const kiriNear* near)
     const int32_t* corners = kiriSurface_Triangle(surface, near->triangle);
     kiriVec2 apart = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
     KIRI_TIMES(c, 3) {
-        apart = kiriVec2_Add(apart, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
+        apart = kiriVec2_AddScaled(apart, near->share[c], surface->rest.data[corners[c]]);
     }
-    return sqrt(kiriVec2_Dot(apart, apart));
+    return kiriVec2_Length(apart);
 }
 
 /* Returns the distance that a probe and a place of the same piece keep, m: less where they are near each other at rest,
@@ -609,7 +601,7 @@ typedef struct Search {
     const kiriBody *body, *other;
     kiriVec3 ahead;     /* normal at the probe */
     kiriNear found[2];  /* nearest to the probe; of a fold: in front, and behind */
-    double least[2];    /* m^2: of their distance; or of half of the edge */
+    double least[2];    /* m^2: of their distance */
     double gap;         /* m^2: of the distance to another layer, whichever frames carry it */
     kiriNear layer;     /* nearest place of another layer */
     int32_t edge, a, b; /* half-edge and its ends */
@@ -708,20 +700,22 @@ static void SpreadRooms(kiriSheetData* sheet)
     const kiriSurface* surface = &sheet->seen.surface;
     uint8_t* marks = sheet->probes.marks.data;
     float* rooms = sheet->probes.rooms.data;
-    KIRI_EACH(uint8_t, mark, sheet->probes.marks) {
-        *mark = (*mark & KIRI_FOLD_PROBE) != 0;
-    }
-    KIRI_ASSERT(!sheet->probes.limits || sheet->probes.rooms.count == surface->vertexCount);
     bool isSpread = sheet->probes.limits && surface->detail.sweeps > 0;
+    KIRI_ASSERT(!isSpread || sheet->probes.rooms.count == surface->vertexCount);
+    KIRI_EACH_WHILE(isSpread, uint8_t, mark, sheet->probes.marks) {
+        *mark = (*mark & KIRI_FOLD_PROBE) != 0 ? 1 : UINT8_MAX;
+    }
     for (uint8_t round = 1; isSpread && round < UINT8_MAX; ++round) {
         isSpread = false;
         KIRI_TIMES(h, 3 * surface->triangleCount) {
-            int32_t a = surface->indices.data[h], b = surface->indices.data[h % 3 == 2 ? h - 2 : h + 1];
-            int32_t from = marks[a] == round ? a : b, to = from == a ? b : a;
-            if (marks[from] == round && (marks[to] == 0 || marks[to] > round)) {
-                rooms[to] = kiriMin(rooms[from], rooms[to]);
-                marks[to] = (uint8_t)(round + 1);
-                isSpread = true;
+            int32_t from = surface->indices.data[h];
+            KIRI_TIMES_WHILE(marks[from] == round, k, 3) {
+                int32_t to = surface->indices.data[h / 3 * 3 + k];
+                if (marks[to] > round) {
+                    rooms[to] = kiriMin(rooms[from], rooms[to]);
+                    marks[to] = (uint8_t)(round + 1);
+                    isSpread = true;
+                }
             }
         }
     }
@@ -763,10 +757,17 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         if (isFold) {
             search.ahead = kiriVertex_SkinNormal(a->sheet, none.vertex);
         }
-        kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, x, kiriMax(own * own, search.gap),
-                           LookAtPlace, &search);
+        kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, &(kiriBox){ x, x },
+                           kiriMax(own * own, search.gap), LookAtPlace, &search);
         if (isFold || search.layer.triangle != KIRI_NONE) {
             LimitRoom(&search, none.vertex, widest, kept, dt);
+        }
+        if (!isFold && search.found[0].triangle != KIRI_NONE) { /* continuous over edges, where rounding chooses the triangle */
+            kiriNear* near = &search.found[0];
+            const kiriSurface* surface = &b->sheet->seen.surface;
+            kiriVec3 under = kiriSurface_Blend(surface, kiriSurface_Triangle(surface, near->triangle), near->share);
+            near->normal = kiriTriangle_SkinNormal(b->sheet, near->triangle, near->share);
+            near->height = kiriVec3_Dot(near->normal, kiriVec3_Sub(x, under));
         }
         KIRI_TIMES_WHILE(ok, k, 2) {
             const kiriNear* near = &search.found[k];
@@ -981,26 +982,24 @@ static double LookAtCrossing(void* context, int32_t triangle)
     kiriSheetData* sheet = search->body->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     const int32_t* c = kiriSurface_Triangle(surface, triangle);
-    kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b), corner[3];
     KIRI_TIMES(k, 3) {
         if (c[k] == search->a || c[k] == search->b) {
             return search->least[0];
         }
     }
-    kiriPairTouch touch = { .upper = VertexPlace(sheet, search->a), .isFold = true, .touch = KIRI_NONE };
+    kiriVec3 p = kiriSurface_At(surface, search->a), along = kiriVec3_Sub(kiriSurface_At(surface, search->b), p), corner[3];
     kiriNear near = { .triangle = triangle };
-    kiriVec3 along = kiriVec3_Sub(q, p);
-    double* part = &touch.upper.share[1];
+    double part;
     kiriSurface_Corners(surface, triangle, corner);
-    if (!kiriTriangle_Cross(corner, p, along, part, near.share) || !(*part > 0.0 && *part <= 1.0)) {
+    if (!kiriTriangle_Cross(corner, p, along, &part, near.share) || !(part > 0.0 && part <= 1.0)) {
         return search->least[0];
     }
-    kiriVec3 at = kiriVec3_AddScaled(p, *part, along);
+    kiriPairTouch touch = { .upper = { sheet, { search->a, search->b, KIRI_NONE }, { 1.0 - part, part, 0.0 } },
+                            .isFold = true, .touch = KIRI_NONE };
+    kiriVec3 at = kiriVec3_AddScaled(p, part, along);
     along = kiriVec3_Normalize(along);
     kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
     kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
-    touch.upper.vertex[1] = search->b;
-    touch.upper.share[0] = 1.0 - *part;
     touch.lower = TrianglePlace(sheet, triangle, near.share);
     if (AreSewn(&touch.upper, &touch.lower, sheet->settings.foldThickness)) {
         return search->least[0];
@@ -1008,7 +1007,7 @@ static double LookAtCrossing(void* context, int32_t triangle)
     bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
     KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
     sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
-    near.vertex = *part < 0.5 ? search->a : search->b;
+    near.vertex = part < 0.5 ? search->a : search->b;
     touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)search->a, (uint64_t)search->b, (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = FoldDistance(sheet, &near, DistanceAtRest(sheet, &near), 0.0);
@@ -1042,10 +1041,10 @@ static bool TouchTangles(Search* search)
                         ((differ & KIRI_FOLD_PLACE) != 0 || (either & KIRI_FOLD_PROBE) == 0);
         if (mayCross && (isOpen || kiriMesh_Twin(&sheet->mesh, h) < h) && group.ofVertex[search->a] == group.group) {
             kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b);
-            kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(q, p));
-            search->least[0] = kiriVec3_Dot(half, half);
-            kiriBounds_Nearest(sheet->seen.bounds, surface, group, kiriVec3_Add(p, half), search->least[0],
-                               LookAtCrossing, search);
+            kiriVec3 along = kiriVec3_Sub(q, p);
+            kiriBox box = { kiriVec3_Least(p, q), kiriVec3_Most(p, q) };
+            search->least[0] = 1e-12 * kiriVec3_Dot(along, along); /* rounding */
+            kiriBounds_Nearest(sheet->seen.bounds, surface, group, &box, search->least[0], LookAtCrossing, search);
         }
     }
     return search->ok;
