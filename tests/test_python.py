@@ -529,6 +529,10 @@ def test_lengths_are_checked():
     raises(ValueError, world.create_sheet, square, [0, 1, 2, 0])
     raises(ValueError, world.create, "Sheet", restPositions=square, vertexCount=5, indices=triangles, triangleCount=2)
     raises(ValueError, world.create, "Sheet", restPositions=square, vertexCount=4, indices=triangles, triangleCount=3)
+    edge, fields = [(0, 0), (0.1, 0)], {"sheetA": sheet, "sheetB": sheet}
+    assert world.create_seam(lineA=edge, lineB=edge, **fields).count() > 1  # counts come from the arrays
+    caught = raises(ValueError, world.create_seam, lineA=edge, lineB=[0.0, 0.1, 0.2], **fields)
+    assert str(caught) == "kiriSeamDef.lineB: 2 numbers wanted, not 3"
     raises(TypeError, world.create_sheet, kiri.ffi.cast("float*", kiri.ffi.new("float[8]")), triangles)
     raises(ValueError, cut.extend, [0.1, 0.2, 0.3])
     raises(ValueError, world.set_gravity, (0, 1))

@@ -112,10 +112,10 @@ def array(item, values):
     return ffi.new(item + "[]", list(_flatten(values)))
 
 
-def _check_length(values, length):
+def _check_length(values, length, name=""):
     """C reads as far as it was told, so a shorter array must not reach it."""
     if len(values) != length:
-        raise ValueError(f"{length} numbers wanted, not {len(values)}")
+        raise ValueError(f"{name}{length} numbers wanted, not {len(values)}")
     return values
 
 
@@ -157,7 +157,7 @@ def fill(world, struct, values, kept):
         if value is None:
             value = ffi.NULL
         elif field.kind == "array":
-            value = list(vector(value, field.length))
+            value = list(_check_length(array("float", value), field.length, f"{kind.cname}.{name}: "))
         elif field.kind in ("pointer", "function"):
             if field.kind == "function":
                 value = value if isinstance(value, ffi.CData) else ffi.callback(field, value, onerror=world._note)
@@ -169,7 +169,9 @@ def fill(world, struct, values, kept):
         setattr(struct, name, value)
     for name, numbers in given.items():
         count, width = arrays[name]
-        _check_length(numbers, width * getattr(struct, count))
+        if count not in values:
+            setattr(struct, count, len(numbers) // width)
+        _check_length(numbers, width * getattr(struct, count), f"{kind.cname}.{name}: ")
 
 
 def definition(world, kind, values, kept):
