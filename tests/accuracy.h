@@ -10,4 +10,7 @@ typedef struct Case {
 /* Each ends with a name of null. */
 extern const Case beamCases[], plateCases[], shellCases[], cutCases[], motionCases[];
 
+/* The first mode of a cantilever of length *data. */
+void Accuracy_FirstShape(const void* data, double u, double v, double w[3]);
+
 #endif

@@ -337,8 +337,7 @@ static void RollUp(const char* data)
 
 /* ---- Vibration -------------------------------------------------------------------------------------------------- */
 
-/* The first mode of a cantilever of length *data. */
-static void FirstShape(const void* data, double u, double v, double w[3])
+void Accuracy_FirstShape(const void* data, double u, double v, double w[3])
 {
     double L = *(const double*)data, k = 1.8751040687 / L, x = k * u;
     double s = (cosh(1.8751040687) + cos(1.8751040687)) / (sinh(1.8751040687) + sin(1.8751040687));
@@ -363,7 +362,7 @@ static void FirstFrequency(const char* data)
                 continue;
             }
             Specimen_ClampEnd(specimen, &def, 0.0);
-            double found = Specimen_Frequency(specimen, FirstShape, &L, 1e-3, theory);
+            double found = Specimen_Frequency(specimen, Accuracy_FirstShape, &L, 1e-3, theory);
             Row row = Row_Make("first frequency", "rows", frames[k], grids[g], 1e-3, 0.02);
             snprintf(row.setting, sizeof row.setting, "%s", "nu 0");
             row.milliseconds = specimen->milliseconds;

@@ -48,15 +48,6 @@ static void TwistShape(const void* data, double u, double v, double w[3])
     w[2] = sin(x);
 }
 
-static void BendShape(const void* data, double u, double v, double w[3])
-{
-    double k = 1.8751040687 / *(const double*)data, x = k * u;
-    double s = (cosh(1.8751040687) + cos(1.8751040687)) / (sinh(1.8751040687) + sin(1.8751040687));
-    w[0] = cosh(x) - cos(x) - s * (sinh(x) - sin(x));
-    w[1] = k * (sinh(x) + sin(x) - s * (cosh(x) - cos(x)));
-    w[2] = 0.0;
-}
-
 /* Omega of a narrow strip by Saint-Venant: G J = 2 (1 - nu) D W, and no bending where it is clamped. */
 static double SaintVenant(const PlateMode* mode)
 {
@@ -82,7 +73,7 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
         return;
     }
     Specimen_ClampEnd(specimen, &def, 0.0);
-    double found = Specimen_Frequency(specimen, twist ? TwistShape : BendShape, size, amplitude, theory);
+    double found = Specimen_Frequency(specimen, twist ? TwistShape : Accuracy_FirstShape, size, amplitude, theory);
     Row row = Row_Make(name, layoutNames[kind], specimen->count, grid, 2e-3, 0.05);
     row.milliseconds = specimen->milliseconds;
     snprintf(row.setting, sizeof row.setting, "W/L %g, nu %g, %d row%s", mode->width, mode->poisson, rows,
@@ -209,7 +200,7 @@ static double SidewaysFrequency(const SpecimenDef* def, double gamma, double gue
     SCOPED_SPECIMEN(specimen) = Specimen_Create(&loaded);
     Require(specimen != NULL, "a strip on edge is refused");
     Specimen_ClampEnd(specimen, def, 0.0);
-    double found = Specimen_Frequency(specimen, BendShape, &L, 2e-4, guess);
+    double found = Specimen_Frequency(specimen, Accuracy_FirstShape, &L, 2e-4, guess);
     *milliseconds = specimen->milliseconds;
     return found;
 }

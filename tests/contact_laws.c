@@ -297,12 +297,6 @@ static void MeasureLift(void)
 
 /* ---- Sums -------------------------------------------------------------------------------------------------------- */
 
-/* Angular momentum about the centre of mass, along y; and the moment of the impulses of the last tick about it. */
-static double OwnTurning(const kiriTotals* t)
-{
-    return t->angularMomentum[1] - t->center[2] * t->momentum[0] + t->center[0] * t->momentum[2];
-}
-
 static double MomentAbout(const Touching* t, const double center[3])
 {
     return t->moment[1] - center[2] * t->impulse[0] + center[0] * t->impulse[2];

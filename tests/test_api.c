@@ -982,6 +982,9 @@ TEST(LinesNameArguments)
     sphere.position[1] = -2e38f;
     SAYS(kiriCreateObstacle(w, &sphere, &id), "kiriCreateObstacle: def.position[1] is -2e38, not within -4.2535e37 and "
                                               "4.2535e37 (KIRI_ERROR_ARGUMENT)");
+    const kiriFrame frames[2] = { s.given.frame, 77 };
+    SAYS(kiriWorld_DestroyPieces(w, frames, 2),
+         "kiriWorld_DestroyPieces: frames[1] is 77: there is no frame with this id (KIRI_ERROR_ID)");
     kiriFoldState fold;
     int64_t size;
     SAYS(kiriWorld_Tick(w, 20.0f, 1), "kiriWorld_Tick: dt is 20, not within 1e-6 and 10 (KIRI_ERROR_ARGUMENT)");

@@ -109,11 +109,6 @@ TEST(Lift)
 
 /* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
-static double OwnTurning(const kiriTotals* t)
-{
-    return t->angularMomentum[1] - t->center[2] * t->momentum[0] + t->center[0] * t->momentum[2];
-}
-
 /* A sheet that drops, slides and turns: impulses are its change of momentum but for gravity, to rounding, and it turns
    by their moments. */
 TEST(SumsOfImpulses)

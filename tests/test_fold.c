@@ -696,17 +696,19 @@ TEST(FoldsAreSetInACut)
     }
 }
 
-/* Vertices along a fold are rounded, by more than a small snap distance. The fold is whole, and its pieces come off. */
-TEST(SmallSnapsJoinFolds)
+/* Vertices along a fold are rounded, by more than a small snap distance. The fold is whole, and its pieces come off. An end that
+   goes on to a border at a slant, by more than two snap distances, belongs to it. */
+TEST(SnapsJoinFolds)
 {
-    static const float snaps[3] = { 1e-6f, 1e-9f, 1e-12f };
-    for (int k = 0; k < 3; ++k) {
-        kiriFold fold = { { -0.1f, 0.137f }, { 1.1f, 0.871f }, 0.01f, 0.0f, 0.0f };
+    static const float snaps[] = { 1e-6f, 1e-9f, 1e-12f, 0.01f }, lengths[] = { 1.172f, 1.172f, 1.172f, 0.345f };
+    for (int k = 0; k < 4; ++k) {
+        kiriFold fold = k < 3 ? (kiriFold){ { -0.1f, 0.137f }, { 1.1f, 0.871f }, 0.01f, 0.0f, 0.0f }
+                              : (kiriFold){ { 0.7015f, 0.0126f }, { 0.4318f, 0.189f }, 0.01f, 0.0f, 0.0f };
         kiriSheetDef def = StiffDef();
         START_HOST(host);
         def.frameCount = 12;
         def.snapDistance = snaps[k];
         kiriSheet sheet = AddFolded(&host, &def, 1.0f, 1.0f, 16, 16, &fold, 1);
-        assert_true(fabs(World_FoldState(host.world, sheet, 0).length - 1.172) < 0.01);
+        assert_true(fabs(World_FoldState(host.world, sheet, 0).length - lengths[k]) < 0.01);
     }
 }

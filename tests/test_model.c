@@ -229,6 +229,25 @@ TEST(PlanarEqualsSpace)
     }
 }
 
+/* A strip that spins about its normal stays in its plane, however slender it is and however far it turns in a tick. */
+TEST(SpinsStayFlat)
+{
+    for (int k = 0; k < 8; ++k) {
+        float size = k / 4 == 0 ? 90.0f : 900.0f, spin[3] = { -0.8f * size, 0.0f, 0.6f * size };
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
+        def.planar = k % 2;
+        def.frameCount = 1;
+        def.axisU[0] = 0.6f;
+        def.axisU[2] = 0.8f;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, k / 2 % 2 == 0 ? 0.1f : 0.03f, 8, 2);
+        OK(kiriSheet_SetVelocity(host.world, sheet, (float[3]){ 0.0f, 0.0f, 0.0f }, spin));
+        Host_Ticks(&host, 60, 0.01f, 1);
+        kiriFrameState state = StateOf(&host, sheet, 0);
+        assert_true(fabs(state.rotation[6] + 0.8) + fabs(state.rotation[8] - 0.6) < 1e-5);
+    }
+}
+
 /* A sheet that is pulled at one end, and was not quite flat, becomes flat: tension does not make it buckle. */
 TEST(TensionDoesNotBuckle)
 {

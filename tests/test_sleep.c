@@ -11,10 +11,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
     return awake == 1;
 }
 
-static void Tick(Host* host)
-{
-    OK(Host_Tick(host, dt, 2));
-}
+#define Tick(host) OK(Host_Tick(host, dt, 2))
 
 /* Ticks until it sleeps: how many. */
 static int TicksToSleep(Host* host, kiriSheet sheet, int most)

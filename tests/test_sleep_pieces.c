@@ -4,10 +4,7 @@
 static const float dt = 1.0f / 60.0f;
 enum { HALF_SECOND = 30, STRIPS = 4 };
 
-static void Tick(Host* host)
-{
-    OK(Host_Tick(host, dt, 2));
-}
+#define Tick(host) OK(Host_Tick(host, dt, 2))
 
 /* One bit for each piece that is awake. */
 static uint32_t Awake(const Host* host, kiriSheet sheet)

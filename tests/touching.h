@@ -203,4 +203,10 @@ static inline void Touching_Ticks(Touching* t, Plane* plane, int count)
     }
 }
 
+/* Angular momentum about the centre of mass, along y. */
+static inline double OwnTurning(const kiriTotals* t)
+{
+    return t->angularMomentum[1] - t->center[2] * t->momentum[0] + t->center[0] * t->momentum[2];
+}
+
 #endif

@@ -163,19 +163,6 @@ static inline int32_t kiriLowestBit(uint32_t bits)
 #endif
 }
 
-/* Relaxed atomic store. Concurrent readers may all store the same value. */
-static inline void kiriWord_Leave(const int32_t* word, int32_t value)
-{
-    int32_t* at = (int32_t*)word;
-#if defined(__GNUC__)
-    if (__atomic_load_n(at, __ATOMIC_RELAXED) != value) {
-        __atomic_store_n(at, value, __ATOMIC_RELAXED);
-    }
-#else
-    *(volatile int32_t*)at = value;
-#endif
-}
-
 /* Relaxed atomic addition to a counter that several readers share. */
 static inline void kiriWord_Add(const int32_t* word, int32_t value)
 {

@@ -386,8 +386,14 @@ static void AddTurnsAlong(const LinkUpdate* u, const kiriSight* sight, int32_t c
 static bool IsSiteInside(const LinkUpdate* u, int32_t region)
 {
     const kiriSite* site = &u->sites[region];
-    return u->grid->whole.data[u->grid->cells.data[site->cell].square] ||
-           kiriGrid_CellAt(u->grid, kiriMesh_Snap(u->grid->mesh, site->at)) == site->cell;
+    const kiriMeshData* mesh = u->grid->mesh;
+    int32_t square = u->grid->cells.data[site->cell].square;
+    bool isInside = u->grid->whole.data[square];
+    KIRI_EACH_NODE(node, &mesh->squares, square) {
+        isInside = isInside || (u->grid->nodeCell.data[node] == site->cell &&
+                                kiriMesh_Holds(mesh, mesh->squares.nodes.data[node].triangle, kiriMesh_Snap(mesh, site->at), 0));
+    }
+    return isInside;
 }
 
 /* Returns an upper bound, m, of the true length of a way with this length on the grid, which may cut the end of a slit
@@ -1307,17 +1313,6 @@ static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t
     return true;
 }
 
-/* Returns the part of a link's width between its crossing and this end: 0 if the crossing is beyond, because weights of both
-   signs would make narrow corners stiff. */
-static double WidthBeside(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end)
-{
-    const kiriLink* link = &u->links->next.data[k];
-    const kiriLinkEnd* ends = u->work->nextEnds.data[k].end;
-    bool isTail = AreEndsOne(&ends[0], end, u->grid->side);
-    double way = kiriVec2_Dot(kiriVec2_Sub(ends[isTail ? 0 : 1].at, link->crossing), link->tangent);
-    return kiriMax(isTail ? -way : way, 0.0);
-}
-
 /* Below this determinant of N, relative to its trace squared, the links of a corner have one direction. */
 static const double kiriFlatCorner = 1e-3;
 
@@ -1335,7 +1330,12 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
     }
     KIRI_TIMES(a, count) {
         const kiriLink* x = &next[list[a]];
-        share[a] = WidthBeside(u, list[a], end) / x->length;
+        const kiriLinkEnd* ends = u->work->nextEnds.data[list[a]].end;
+        bool isTail = AreEndsOne(&ends[0], end, u->grid->side);
+        double way = kiriVec2_Dot(kiriVec2_Sub(ends[isTail ? 0 : 1].at, x->crossing), x->tangent);
+        /* The part of its width between its crossing and this end: 0 if the crossing is beyond, because weights of both signs
+           would make narrow corners stiff. */
+        share[a] = kiriMax(isTail ? -way : way, 0.0) / x->length;
         xx += share[a] * x->span.x * x->span.x;
         xy += share[a] * x->span.x * x->span.y;
         yy += share[a] * x->span.y * x->span.y;
@@ -1507,9 +1507,8 @@ static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
 {
     const kiriFoldLine* line = &u->grid->mesh->folds.data[fold];
     kiriLinkWork* work = u->work;
-    kiriLatticePoint from = line->from, to = line->to;
     const kiriMeshData* mesh = u->grid->mesh;
-    kiriStrips strips = kiriStrips_Begin(&mesh->squares, from, to, line->reach);
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, line->from, line->to, 4.0 * line->reach);
     work->parts.count = 0;
     while (kiriStrips_Next(&strips)) {
         KIRI_EACH_INDEX(i, strips) {

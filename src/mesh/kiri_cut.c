@@ -395,7 +395,7 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
         return SplitEdge(walk, h, foot);
     }
     const kiriLatticePoint sides[3][2] = { { c[0], c[1] }, { c[1], c[2] }, { c[2], c[0] } };
-    if (!AreEdgesFree(walk, at, sides, 3, false) || !kiriMesh_CanSplitTriangle(walk->mesh, triangle, at)) {
+    if (!AreEdgesFree(walk, at, sides, 3, false) || !kiriMesh_Holds(walk->mesh, triangle, at, 1)) {
         return corner;
     }
     walk->splits += 3;
@@ -578,16 +578,6 @@ static int32_t FindEnd(BladeWalk* walk, kiriLatticePoint from, kiriLatticePoint 
     return isHere ? tip->vertex : VertexIn(walk, triangle, at);
 }
 
-/* Makes a vertex where the blade is. */
-static void Start(BladeWalk* walk, kiriLatticePoint to)
-{
-    int32_t vertex = FindEnd(walk, to, walk->tip->at);
-    if (vertex != KIRI_NONE) {
-        MoveTo(walk, vertex);
-    }
-    walk->tip->phase = KIRI_BLADE_AIMS;
-}
-
 /* Finds the end of the move. */
 static void Aim(BladeWalk* walk, kiriLatticePoint to)
 {
@@ -684,9 +674,14 @@ static void TakeStep(BladeWalk* walk, kiriLatticePoint to)
     bool joins = walk->tip->phase == KIRI_BLADE_JOINS;
     walk->lineFrom = joins ? walk->tip->lip : walk->tip->from;
     walk->lineTo = joins ? walk->tip->goal : walk->tip->to;
+    int32_t start = KIRI_NONE;
     switch (walk->tip->phase) {
-    case KIRI_BLADE_STARTS:
-        Start(walk, to);
+    case KIRI_BLADE_STARTS: /* makes a vertex where the blade is */
+        start = FindEnd(walk, to, walk->tip->at);
+        if (start != KIRI_NONE) {
+            MoveTo(walk, start);
+        }
+        walk->tip->phase = KIRI_BLADE_AIMS;
         break;
     case KIRI_BLADE_AIMS:
         Aim(walk, to);

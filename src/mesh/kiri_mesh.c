@@ -55,11 +55,21 @@ bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMe
 
 bool kiriFoldLine_Has(const kiriFoldLine* fold, kiriLatticePoint a, kiriLatticePoint b)
 {
-    const kiriVec2 from = { fold->from.x, fold->from.y }, to = { fold->to.x, fold->to.y };
-    KIRI_ASSERT(fold->reach >= 0.0);
+    kiriVec2 from = { fold->from.x, fold->from.y }, to = { fold->to.x, fold->to.y };
     const kiriVec2 first = { a.x, a.y }, last = { b.x, b.y };
+    KIRI_ASSERT(fold->reach >= 0.0 && !kiriLattice_IsSame(fold->from, fold->to));
+    kiriVec2 beyond = kiriVec2_Scale(3.0 * fold->reach, kiriVec2_Normalize(kiriVec2_Sub(to, from)));
+    from = kiriVec2_Sub(from, beyond);
+    to = kiriVec2_Add(to, beyond);
     return kiriVec2_DistanceToWay(first, from, to) <= fold->reach &&
            kiriVec2_DistanceToWay(last, from, to) <= fold->reach;
+}
+
+bool kiriMesh_Holds(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, int64_t least)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    return kiriOrient(c[0], c[1], at) >= least && kiriOrient(c[1], c[2], at) >= least && kiriOrient(c[2], c[0], at) >= least;
 }
 
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)
@@ -68,12 +78,7 @@ int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)
     int32_t slot = square == KIRI_NONE ? KIRI_NONE : mesh->squares.head[square];
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
         int32_t t = mesh->squares.nodes.data[slot].triangle;
-        kiriLatticePoint c[3];
-        kiriMesh_Corners(mesh, t, c);
-        if ((found == KIRI_NONE || t < found) && kiriOrient(c[0], c[1], at) >= 0 && kiriOrient(c[1], c[2], at) >= 0 &&
-            kiriOrient(c[2], c[0], at) >= 0) {
-            found = t;
-        }
+        found = (found == KIRI_NONE || t < found) && kiriMesh_Holds(mesh, t, at, 0) ? t : found;
     }
     return found;
 }
@@ -358,7 +363,7 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 
 int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
-    KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
+    KIRI_ASSERT(kiriMesh_Holds(mesh, triangle, at, 1));
     int32_t h = 3 * triangle;
     kiriLatticePoint corners[3], made[3][3];
     kiriMesh_Corners(mesh, triangle, corners);
@@ -484,13 +489,6 @@ bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint
 {
     int32_t twin = kiriMesh_Twin(mesh, h);
     return CanSplitSide(mesh, h, at) && (twin == KIRI_NONE || CanSplitSide(mesh, twin, at));
-}
-
-bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(mesh, triangle, c);
-    return kiriOrient(c[0], c[1], at) > 0 && kiriOrient(c[1], c[2], at) > 0 && kiriOrient(c[2], c[0], at) > 0;
 }
 
 bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h)

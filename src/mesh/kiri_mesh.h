@@ -53,7 +53,7 @@ typedef struct kiriBirth {
 /* A straight line along which the sheet folds. Its edges are creases: open, but a link joins the two sides. */
 typedef struct kiriFoldLine {
     kiriLatticePoint from, to;
-    double reach; /* lattice steps: creases this near to the line belong to it */
+    double reach; /* lattice steps: creases this near to the line, or beyond its ends within 4 times this, belong to it */
     float stiffness, restAngle, yieldMoment; /* see kiriFold */
     int32_t isMade; /* 0: its blade has not come to its end */
 } kiriFoldLine;
@@ -230,6 +230,9 @@ bool kiriFoldLine_Has(const kiriFoldLine* fold, kiriLatticePoint a, kiriLatticeP
 /* Computes the barycentric coordinates of a point in a triangle. */
 void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, double shares[3]);
 
+/* Returns true if the triangle contains the point, least 0: be it on an edge, 1: on none. Exact. */
+bool kiriMesh_Holds(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, int64_t least);
+
 /* Returns the lowest triangle whose closure contains the point, so lips of a cut do not matter, or KIRI_NONE. */
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 
@@ -309,7 +312,7 @@ bool kiriMesh_Reserve(kiriMeshData* mesh, int32_t changes);
    must be counter-clockwise: see kiriMesh_CanSplitEdge. Returns the vertex on h's side, or KIRI_NONE. */
 int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
 
-/* Adds a vertex inside a triangle: see kiriMesh_CanSplitTriangle. Returns it, or KIRI_NONE. */
+/* Adds a vertex inside a triangle, on no edge. Returns it, or KIRI_NONE. */
 int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 /* Replaces the edge between two triangles by the other diagonal of their quadrilateral: see kiriMesh_CanFlipEdge. The
@@ -320,9 +323,8 @@ bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h);
    a crease becomes a cut. */
 bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease);
 
-/* Return true if all new triangles would be counter-clockwise. Exact. */
+/* Returns true if all new triangles would be counter-clockwise. Exact. */
 bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
-bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 /* Returns true if the edge is closed, both triangles lie in the same source triangle, and both new ones would be
    counter-clockwise. Exact. */

@@ -428,13 +428,6 @@ static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double de
     step->limit = row->friction * step->known;
 }
 
-/* Returns the push that limits friction, N. A single system spreads pushes unevenly, so this is the push of the last
-   step, or, for a new contact, of the last system. */
-static double LimitingPush(const kiriContactStep* step)
-{
-    return !(step->push > 0.0) ? 0.0 : step->was > 0.0 ? step->was : step->push;
-}
-
 /* Sets springs and forces for a system: the first one is tangent to the push that is expected, later ones to the push
    at the poses. A slide that turned round sticks. */
 static void LinearizeSoft(kiriContactStep* step, bool isFirst)
@@ -447,7 +440,10 @@ static void LinearizeSoft(kiriContactStep* step, bool isFirst)
     double at = isGuess ? DepthOfPush(step, step->known) : step->depth;
     step->spring = SoftSpringAt(step, at);
     step->pull = PushAt(step, at) + step->spring * (step->depth - at);
-    step->limit = step->row->friction * (isGuess ? step->known : LimitingPush(step));
+    /* A single system spreads pushes unevenly: so friction is limited by the push of the last step, or, of a new contact, of
+       the last system. */
+    double limiting = !(step->push > 0.0) ? 0.0 : step->was > 0.0 ? step->was : step->push;
+    step->limit = step->row->friction * (isGuess ? step->known : limiting);
     kiriVec3 trial = Trial(step, step->slide);
     double size = kiriVec3_Length(trial);
     bool hasTurned = !isFirst && !step->sticks && kiriVec3_Dot(trial, step->direction) > 0.0;
@@ -1012,15 +1008,11 @@ static kiriVec3 WithinCone(const kiriContactStep* step)
     return kiriVec3_AddScaled(held, step->push, step->row->normal);
 }
 
-/* Returns the force of the contact, N. A soft contact may still pull slightly; the others then push by as much more. */
-static kiriVec3 GivenForce(const kiriContactStep* step)
-{
-    return IsSoft(step->row) ? kiriVec3_AddScaled(step->drag, step->push, step->row->normal) : WithinCone(step);
-}
-
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step)
 {
-    return kiriVec3_Scale(solver->touch.keepForces, GivenForce(step));
+    /* a soft contact may still pull slightly; the others then push by as much more */
+    kiriVec3 given = IsSoft(step->row) ? kiriVec3_AddScaled(step->drag, step->push, step->row->normal) : WithinCone(step);
+    return kiriVec3_Scale(solver->touch.keepForces, given);
 }
 
 double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step, double* lifting)

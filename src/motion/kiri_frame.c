@@ -228,33 +228,34 @@ static kiriVec3 Shortened(kiriVec3 turn)
     return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
 }
 
-/* Rotates freely over h with the angular momentum L, by the implicit midpoint rule for L in the body's axes. The map is
-   a Cayley rotation. It conserves L and the energy for any length of the Cayley vector. */
-static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
+/* Rotates freely over h with the angular momentum L, in parts, by the implicit midpoint rule for L in the body's axes, which
+   Newton's method solves: a simple iteration diverges for slender frames. The map is a Cayley rotation. It conserves L and the
+   energy for any length of the Cayley vector. */
+static kiriMat3 TurnFreely(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double angle, double h)
 {
-    kiriVec3 start = kiriMat3_MulTransposed(A, L), end = start;
-    kiriMat3 turn = IdentityAxes;
-    KIRI_TIMES(iteration, 30) {
-        kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
-        kiriVec3 w = kiriMat3_Solve(bodyInertia, middle); /* the Cayley vector of |w| about it, to the sixth order: */
-        double ww = kiriVec3_Dot(w, w);
-        turn = kiriMat3_Cayley(Shortened(kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w)));
-        kiriVec3 next = kiriMat3_MulTransposed(&turn, start);
-        double change = kiriVec3_Distance(next, end);
-        end = next;
-        if (!(change > 1e-15 * kiriVec3_Length(L))) {
-            break;
-        }
-    }
-    return kiriMat3_MulMat(*A, turn);
-}
-
-static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double angle, double h)
-{
+    const kiriMat3* e = &IdentityAxes;
+    const kiriMat3 by = { kiriMat3_Solve(bodyInertia, e->u), kiriMat3_Solve(bodyInertia, e->v), kiriMat3_Solve(bodyInertia, e->d) };
     int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
     kiriMat3 turned = *A;
+    h = kiriMin(h / parts, h * LONGEST_PART_TURN / kiriMax(angle, LONGEST_PART_TURN));
     KIRI_TIMES(part, parts) {
-        turned = TurnPart(&turned, bodyInertia, L, h / parts);
+        kiriVec3 start = kiriMat3_MulTransposed(&turned, L), middle = start, w = start;
+        double scale = 1.0;
+        KIRI_TIMES(iteration, 30) {
+            w = kiriMat3_Mul(by, kiriVec3_Scale(h, middle)); /* the Cayley vector of |w| about it, to the sixth order: */
+            scale = 1.0 + kiriVec3_Dot(w, w) * (1.0 / 12.0 + kiriVec3_Dot(w, w) / 120.0);
+            kiriVec3 half = kiriVec3_Scale(0.5 * scale, w), reach = kiriVec3_Scale(0.5 * scale * h, middle);
+            kiriVec3 off = kiriVec3_Add(kiriVec3_Sub(start, middle), kiriVec3_Cross(middle, half));
+            kiriMat3 slope = CrossColumns(half, e), more = CrossColumns(reach, &by);
+            slope = kiriMat3_AddScaled(&slope, -1.0, &more);
+            slope = kiriMat3_AddScaled(e, 1.0, &slope);
+            kiriVec3 change = kiriMat3_Solve(&slope, off);
+            middle = kiriVec3_Add(middle, change);
+            if (!(kiriVec3_Length(change) > 1e-15 * kiriVec3_Length(L))) {
+                break;
+            }
+        }
+        turned = kiriMat3_MulMat(turned, kiriMat3_Cayley(kiriVec3_Scale(scale, w)));
     }
     return turned;
 }
@@ -288,7 +289,7 @@ static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriP
     kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
     kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
     kiriVec3 L = kiriMat3_Mul(inertia, frame->spin), lag = frame->history.turnLag.u;
-    kiriMat3 turned = TurnParts(&frame->A, &body, L, s->h * kiriVec3_Length(frame->spin), s->h);
+    kiriMat3 turned = TurnFreely(&frame->A, &body, L, s->h * kiriVec3_Length(frame->spin), s->h);
     prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
     prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(-s->ahead, lag))), turned);
     kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
@@ -354,7 +355,7 @@ static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, ki
     kiriMat3 inertia = AffineInertia(&prediction->moments, &frame->A);
     kiriMat3 inner = kiriStepping_InnerTurn(s, &frame->history);
     kiriVec3 L = kiriMat3_Mul(inertia, frame->spin);
-    kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, L, s->h * kiriVec3_Length(frame->spin), s->h);
+    kiriMat3 turn = TurnFreely(&IdentityAxes, &inertia, L, s->h * kiriVec3_Length(frame->spin), s->h);
     kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h, &frame->rate);
     kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
     kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, kiriMat3_MulTransposed(&turn, L)));

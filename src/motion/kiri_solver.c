@@ -1138,12 +1138,13 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
     }
 }
 
-kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains)
+kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains, size_t each)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
     const double* all[4] = { 0 };
+    KIRI_ASSERT(corner != NULL && corner->count <= 4);
     KIRI_EACH_INDEX(n, *corner) {
-        all[n] = &strains[KIRI_MOST_STRAINS * (size_t)corner->link[n]];
+        all[n] = &strains[each * (size_t)corner->link[n]];
     }
     return kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
 }
@@ -1159,12 +1160,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
     }
     memcpy(pulling, strain, sizeof(double) * (size_t)count);
     if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
-        const kiriCorner* corner = kiriElement_Corner(system, k);
-        const double* all[4] = { 0 };
-        KIRI_EACH_INDEX(n, *corner) {
-            all[n] = system->strainOffsets[corner->link[n]].strain;
-        }
-        kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
+        kiriTrace offset = kiriElement_Trace(system, k, system->strainOffsets->strain, KIRI_STRAINS);
         KIRI_TIMES(e, count) {
             pulling[e] = strain[e] - offset.strain[e];
         }

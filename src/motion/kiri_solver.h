@@ -357,7 +357,7 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
 
 /* Returns the trace of a corner between rigid frames. strains[]: KIRI_MOST_STRAINS of each element, already measured.
    */
-kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
+kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains, size_t each);
 
 /* Returns the offsets of the strains of a link or a clamp, or null. */
 static inline double* kiriElement_Offset(const kiriSystem* system, int32_t k)

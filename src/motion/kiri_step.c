@@ -104,20 +104,16 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
    A body takes a step of second order where all of its frames have the history of one step. The body takes history as
    a whole, not frame by frame: else action and reaction would differ. */
 
-/* Returns true if the last step of this frame says nothing of the next one: it was held, or is; or it turns so far in a
-   step that directions have no past. */
-static bool IsBroken(const kiriFrameData* frame, double dt)
-{
-    return !(frame->history.dt > 0.0) || frame->history.isHeld != frame->held ||
-           !(dt * kiriVec3_Length(frame->spin) <= LONGEST_TURN);
-}
-
 static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* system)
 {
     kiriStepping chosen = kiriStepping_Euler(solver->dt);
     KIRI_TIMES(f, system->frameCount) {
         const kiriFrameData* frame = solver->sources.data[f];
-        if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || IsBroken(frame, solver->dt)) {
+        /* The last step says nothing of the next one: the frame was held, or is; or it turns so far in a step that
+           directions have no past. */
+        bool isBroken = !(frame->history.dt > 0.0) || frame->history.isHeld != frame->held ||
+                        !(solver->dt * kiriVec3_Length(frame->spin) <= LONGEST_TURN);
+        if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || isBroken) {
             return kiriStepping_Euler(solver->dt);
         }
         kiriStepping own = kiriStepping_After(&frame->history, solver->dt);
@@ -312,7 +308,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
 static void MeasureElement(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains)
 {
     if (kiriElement_IsRigidCorner(system, k)) {
-        kiriTrace trace = kiriElement_Trace(system, k, strains);
+        kiriTrace trace = kiriElement_Trace(system, k, strains, KIRI_MOST_STRAINS);
         memcpy(&strains[KIRI_MOST_STRAINS * k], trace.strain, sizeof(trace.strain));
     } else {
         kiriElement_Measure(system, k, poses, &strains[KIRI_MOST_STRAINS * k], NULL);
@@ -630,7 +626,7 @@ static double* TracedRows(const kiriSolver* solver, int32_t link, int traced)
 static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
-    kiriTrace trace = kiriElement_Trace(system, k, solver->nowStrain.data);
+    kiriTrace trace = kiriElement_Trace(system, k, solver->nowStrain.data, KIRI_MOST_STRAINS);
     int traces = kiriElement_StrainCount(system, k), size = solver->size;
     int32_t members[4], ends[4][2];
     kiriTrace_Members(corner, system->links, members, ends);

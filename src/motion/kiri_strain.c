@@ -207,14 +207,6 @@ static kiriVec2 PivotOf(const kiriFrameData* frame)
     return frame->held ? frame->site.at : frame->center;
 }
 
-/* Returns the length of the line that carries tension. The line joins the centres of mass, so tension has no lever to
-   turn a frame. The length is never much shorter than the path through the link, which may lead around a slit. */
-static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2])
-{
-    double apart = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), PivotOf(frames[0])), link->normal), l = link->length;
-    return apart < 0.5 * l ? 0.5 * l : kiriMin(apart, l);
-}
-
 /* Returns a times one pair of vectors plus b times another. */
 static EndVectors Combine(double a, const EndVectors* x, double b, const EndVectors* y)
 {
@@ -585,7 +577,10 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
     EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
-    double lever = LeverOf(link, frames);
+    /* The line that carries tension joins the centres of mass, so tension has no lever to turn a frame. It is never much
+       shorter than the path through the link, which may lead around a slit. */
+    double apart = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), PivotOf(frames[0])), link->normal);
+    double lever = kiriClamp(apart, 0.5 * link->length, link->length);
     MeasureStretch(lever, BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH], ROW_OF(rows, KIRI_STRETCH));
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
                 ROW_OF(rows, KIRI_NORMAL_STOP));

@@ -66,7 +66,7 @@ void kiriSettings_Apply(kiriSheetData* sheet)
     sheet->shape.eased = settings->eased;
     sheet->seen.surface.skinning = settings->skinning;
     sheet->seen.surface.wantsNormals = settings->given.normals != 0;
-    kiriSurface_SetDetail(&sheet->seen.surface, kiriSettings_Detail(settings));
+    kiriSurface_SetDetail(&sheet->seen.surface, kiriSettings_Detail(settings), sheet->seen.surface.detail.isHeld);
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
     sheet->plastics.isKept |= kiriSettings_Bend(settings);
@@ -160,22 +160,17 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 
 /* ---- Settings ---- */
 
-/* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is the longer
-   side, or if it is shorter twice the length at which bending stiffness and weight of the material balance. Measured:
-   tests/test_estimate.c. */
-static double SpacingFor(const kiriSheetDef* def, double longer)
-{
-    double twice = 2.0 * kiriStrain_BalanceLength(&def->material);
-    return sqrt((double)def->accuracy) * (def->planar ? longer : kiriMin(twice, longer));
-}
-
 static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
 {
     double area = kiriMesh_Area(mesh);
     double share = area / (def->frameCount > 0 ? def->frameCount : 1), points = 4.0 * def->frameCount;
     if (def->frameCount == 0) {
         double least = 3.0 * mesh->step * mesh->squares.side;
-        double length = def->frameLength > 0.0f ? def->frameLength : SpacingFor(def, KIRI_LATTICE * mesh->step);
+        /* The error grows with (spacing / whole)^2, where whole is the longer side, or if it is shorter twice the length at
+           which bending stiffness and weight of the material balance. Measured: tests/test_estimate.c. */
+        double twice = 2.0 * kiriStrain_BalanceLength(&def->material), longer = KIRI_LATTICE * mesh->step;
+        double whole = def->planar ? longer : kiriMin(twice, longer);
+        double length = def->frameLength > 0.0f ? def->frameLength : sqrt((double)def->accuracy) * whole;
         settings->frameLength = kiriMax(length, least);
         share = settings->frameLength * settings->frameLength;
         points = kiriMin(4.0 * area / share, 1e6);
@@ -352,7 +347,8 @@ bool kiriBuild_Commit(kiriSheetData* sheet)
 
 /* ---- Folds ------------------------------------------------------------------------------------------------------ */
 
-/* Distance from the line within which its creases are, in snap distances: ends are within 3/2 (kiri_cut.h). */
+/* Distance from the line within which its creases are, in snap distances: ends are within 3/2 (kiri_cut.h), or go on to a
+   slanted lip within 4 times this. */
 #define FOLD_REACH 2.0
 #define ROUNDED_REACH 32.0 /* lattice steps: the least, for vertices along a line are rounded */
 

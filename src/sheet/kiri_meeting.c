@@ -345,7 +345,8 @@ static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* t
                    meeting->gap, touch)) {
         return false;
     }
-    KIRI_ASSERT(!(share > 0.0) || kiriVec3_Dot(touch->normal, x) > touch->offset - 0.01 * meeting->gap);
+    KIRI_ASSERT(!(share > 0.0) ||
+                kiriVec3_Dot(touch->normal, x) > touch->offset - 0.01 * meeting->gap - 1e-12 * fabs(touch->offset));
     SetPlace(touch, &vertex, (const double[1]){ 1.0 }, 1);
     touch->key = MakeKey(meeting, false, (uint32_t)vertex);
     return true;

@@ -230,7 +230,8 @@ static void Stop(kiriSheetData* sheet)
     KIRI_EACH_LISTED(body, moved->bodies) {
         kiriSheet_WakePiece(sheet, body);
     }
-    kiriPins_ClearReactions(sheet);
+    kiriPins_BeginReactions(sheet);
+    kiriPins_TakeReactions(sheet, 1.0);
     kiriTouches_Clear(sheet);
 }
 
@@ -256,16 +257,20 @@ int32_t kiriMotion_Iterations(const kiriSheetData* sheet)
 bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQuota* systems)
 {
     kiriTears* tears = &sheet->tears;
-    bool isFree = sheet->touches.last.touches.count == 0 && !kiriSettings_Yield(&sheet->settings);
+    bool isFree = systems != NULL && sheet->touches.last.touches.count == 0 && !kiriSettings_Yield(&sheet->settings);
     KIRI_ASSERT(tears->before.count == 0);
-    if (sheet->rest.asleep || !isFree || tears->found.count == 0) {
+    if (sheet->rest.asleep || tears->found.count == 0) {
+        return true;
+    }
+    if (ListAwakePieces(sheet)) {
+        SortMoved(sheet);
+    }
+    kiriPins_WriteRows(sheet, 0.0, 1.0);
+    if (!isFree) {
         return true;
     }
     if (!kiriArray_Reserve(sheet->memory, &tears->before, sheet->frames.count)) {
         return false;
-    }
-    if (ListAwakePieces(sheet)) {
-        SortMoved(sheet);
     }
     int32_t iterations = sheet->settings.iterations, solved = 0;
     int64_t items = ItemsOfMoved(sheet), most = kiriMin(systems->left / (2 * items), KIRI_MOST_ROUNDS);
@@ -274,7 +279,6 @@ bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQ
     }
     tears->before.count = sheet->frames.count;
     memcpy(tears->before.data, sheet->frames.data, sizeof(kiriFrameData) * sheet->frames.count);
-    kiriPins_WriteRows(sheet, 0.0, 1.0);
     KIRI_EACH(kiriPinRow, pin, sheet->pinRows) {
         pin->reaction = NULL;
     }

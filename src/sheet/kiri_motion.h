@@ -16,8 +16,8 @@ int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, cons
 int32_t kiriMotion_Iterations(const kiriSheetData* sheet);
 
 /* Moves the frames of a sheet with tips as the tick will: legs that become taut in it pull with many times the force of
-   a tear. Does nothing where a step changes more than frames, where contacts act, or if systems are few; pays for those
-   it takes. kiriMotion_Return puts the frames back. Fails on out of memory. */
+   a tear. Only writes the rows of pins where a step changes more than frames, where contacts act, or if systems are few or
+   null; pays for those it takes. kiriMotion_Return puts the frames back. Fails on out of memory. */
 bool kiriMotion_Foresee(kiriSheetData* sheet, kiriVec3 gravity, double dt, kiriQuota* systems);
 void kiriMotion_Return(kiriSheetData* sheet);
 

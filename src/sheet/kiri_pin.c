@@ -567,12 +567,6 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
     }
 }
 
-void kiriPins_ClearReactions(kiriSheetData* sheet)
-{
-    kiriPins_BeginReactions(sheet);
-    kiriPins_TakeReactions(sheet, 1.0);
-}
-
 /* ---- Drawn points ---- */
 
 /* Returns the share of a frame in the position of a point. */

@@ -54,9 +54,6 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
 /* Adds the reactions of the shares of each line. */
 void kiriPins_SumShares(kiriSheetData* sheet);
 
-/* Clears the reactions of a tick in which the solver failed. */
-void kiriPins_ClearReactions(kiriSheetData* sheet);
-
 /* Returns the stiffness of a pin whose def gives none, N/m. */
 static inline double kiriPins_Stiffness(const kiriSheetData* sheet)
 {

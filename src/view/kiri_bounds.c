@@ -227,7 +227,9 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
 
 void kiriBounds_Ask(const kiriBounds* bounds)
 {
-    kiriWord_Leave(&bounds->asked, 1);
+    if (kiriWord_Read(&bounds->asked) == 0) {
+        kiriWord_Add(&bounds->asked, 1);
+    }
 }
 
 /* Scratch of sorting is freed only here: an update may run in a task, which must not free. */

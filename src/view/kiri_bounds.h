@@ -22,7 +22,7 @@ typedef struct kiriBox {
 enum { KIRI_BOUNDS_PATIENCE = 120, KIRI_BOUNDS_LEVELS = 20 };
 
 typedef struct kiriBounds {
-    int32_t asked;    /* set by readers, from any thread; read by the tick alone */
+    int32_t asked;    /* above 0: by readers, from any thread; read by the tick alone */
     int32_t patience; /* ticks for which boxes are still kept */
 
     kiriIndices order;                  /* of triangles, leaf by leaf */

@@ -184,7 +184,7 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
     kiriDetail_Resize(&surface->detail, vertices, frameCount);
 }
 
-static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isHeld)
+void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps, bool isHeld)
 {
     bool wasOn = kiriSurface_HasDetail(surface), isOther = sweeps != surface->detail.sweeps || isHeld != surface->detail.isHeld;
     surface->detail.sweeps = sweeps;
@@ -203,11 +203,6 @@ static void SetLayer(kiriSurface* surface, int32_t sweeps, bool isHeld)
     }
 }
 
-void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
-{
-    SetLayer(surface, sweeps, surface->detail.isHeld);
-}
-
 bool kiriSurface_ReserveHeld(kiriSurface* surface, kiriMemory* memory)
 {
     kiriDetail detail = surface->detail;
@@ -216,11 +211,6 @@ bool kiriSurface_ReserveHeld(kiriSurface* surface, kiriMemory* memory)
     detail.isHeld = surface->detail.isHeld;
     surface->detail = detail;
     return hasRoom;
-}
-
-void kiriSurface_SetHeld(kiriSurface* surface)
-{
-    SetLayer(surface, surface->detail.sweeps, true);
 }
 
 void kiriSurface_Remember(kiriSurface* surface)

@@ -211,12 +211,12 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
 /* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
 
-/* Turns the detail layer on or off, or changes its sweeps. Room is reserved. The next tick writes all positions. */
-void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps);
+/* Turns the detail layer on or off, or changes its sweeps. isHeld: seams and pins give drawn vertices offsets. Room is
+   reserved. The next tick writes all positions. */
+void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps, bool isHeld);
 
-/* Gives drawn vertices offsets, for seams and pins. Reserve the room first. The next tick writes all positions. */
+/* Reserves room for drawn vertices with offsets. */
 bool kiriSurface_ReserveHeld(kiriSurface* surface, kiriMemory* memory);
-void kiriSurface_SetHeld(kiriSurface* surface);
 
 /* Adds the offsets of fades to the positions. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);

@@ -211,8 +211,11 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
     kiriSheetData* data = call->sheet;
     KIRI_TIMES(i, count) {
         kiriGivenContact given = { .contact = contacts[i] };
-        KIRI_CHECK(PlaceContact(data, &given), "a contact names no collision point, or its restPoint lies outside the "
-                                               "material");
+        if (!PlaceContact(data, &given)) {
+            kiriFault fault;
+            KIRI_SAY(&fault, "contacts[%lld] names no collision point, or a restPoint outside the material", (long long)i);
+            return KIRI_FAIL(KIRI_ERROR_ARGUMENT, fault.line);
+        }
     }
     /* Reserves a contact of each point at once, so that later calls, and ticks, allocate nothing. */
     int32_t room = kiriMax(count, data->points.count);
@@ -261,7 +264,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
         *pin = kiriPool_Add(&world->pinIds, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
-        kiriSurface_SetHeld(&data->seen.surface);
+        kiriSurface_SetDetail(&data->seen.surface, data->seen.surface.detail.sweeps, true);
         kiriSheet_WakePin(data, data->pins.count - 1);
     }
     return result;

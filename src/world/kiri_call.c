@@ -609,6 +609,10 @@ static kiriResult CheckArray(const kiriValue* value, const kiriWorld* world, con
         int32_t bytes = item->of != NULL ? item->of()->bytes : (int32_t)sizeof(uint32_t);
         for (int64_t k = 0; result == KIRI_OK && k < count; ++k) {
             result = CheckValue(item, world, (const char*)at[0] + k * bytes, fault);
+            if (result != KIRI_OK) {
+                char index[NUMBER_BYTES];
+                Prepend(fault, index, (size_t)snprintf(index, sizeof(index), "[%lld]", (long long)k));
+            }
         }
     }
     return result;

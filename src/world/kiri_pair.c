@@ -1080,7 +1080,8 @@ static bool TouchLayers(Search* search, int32_t first, double dt)
 static bool BeginFolds(kiriSheetData* sheet)
 {
     bool folded = sheet->probes.folds;
-    sheet->probes.folds = sheet->settings.selfContact && kiriPieces_AnyFolds(sheet);
+    sheet->probes.folds =
+        sheet->settings.selfContact && !sheet->settings.mechanics.planar && kiriPieces_AnyFolds(sheet);
     sheet->probes.isFresh &= folded || TakesPart(sheet);
     if (!sheet->probes.folds) {
         return true;

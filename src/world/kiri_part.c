@@ -461,10 +461,13 @@ static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count
     kiriWorld* world = call->world;
     Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
+    kiriFault fault;
     if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
         bool areLeft = true; /* pieces of each sheet */
         KIRI_EACH_WHILE(areLeft, const PartSource, source, parting.sources) {
             areLeft = kiriParts_StaySome(world, source->detach.sheet, &source->detach.rest.pieces);
+            KIRI_SAY(&fault, "nothing would be left of sheet %lld: use that, or kiriDestroySheet",
+                     (long long)source->detach.sheet->id);
         }
         result = !areLeft ? KIRI_ERROR_STATE : ids != NULL ? Detach(&parting) : Destroy(&parting);
     }
@@ -474,7 +477,7 @@ static kiriResult TakeOut(kiriCall* call, const kiriFrame* frames, int32_t count
     }
     EndParting(&parting);
     return kiriCall_End(world, call, call->function, result,
-                        result == KIRI_ERROR_STATE ? "the piece is all of its sheet: use the sheet, or kiriDestroySheet" : NULL);
+                        result == KIRI_ERROR_STATE ? fault.line : NULL);
 }
 
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)

@@ -375,8 +375,10 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     made->bending = def->stiffness;
     made->restAngle = def->restAngle;
     made->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
-    kiriSurface_SetHeld(&sheets[0]->seen.surface);
-    kiriSurface_SetHeld(&sheets[1]->seen.surface);
+    KIRI_TIMES(end, 2) {
+        kiriSurface* surface = &sheets[end]->seen.surface;
+        kiriSurface_SetDetail(surface, surface->detail.sweeps, true);
+    }
     made->id = kiriPool_Add(&world->seamIds, made, 0);
     KIRI_NEXT(world->seams) = made;
     WakeSeam(world, made);

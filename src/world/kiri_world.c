@@ -193,7 +193,7 @@ static kiriResult GrowIn(kiriWorld* world, kiriSheetData* sheet, double dt, kiri
     const kiriTearing* tearing = &sheet->settings.tearing;
     const kiriTears* tears = &sheet->tears;
     bool isMeasured = kiriTears_List(sheet) &&
-                      (world->seams.count > 0 || kiriMotion_Foresee(sheet, world->gravity, dt, systems)) &&
+                      kiriMotion_Foresee(sheet, world->gravity, dt, world->seams.count > 0 ? NULL : systems) &&
                       kiriTears_Measure(sheet);
     kiriResult result = isMeasured ? KIRI_OK : KIRI_ERROR_MEMORY;
     int32_t count = tears->order.count, left = tearing->maxTips > 0 ? tearing->maxTips : TIPS;
