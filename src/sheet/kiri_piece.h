@@ -11,7 +11,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet);
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
 
-/* Returns true if the piece, or any piece, is awake and has a director more than 72 degrees off the mean of all. */
+/* Return true if the piece, or any piece that is awake, has a director more than 72 degrees off the mean of all. */
 bool kiriPiece_Folds(const kiriSheetData* sheet, int32_t piece);
 bool kiriPieces_AnyFolds(const kiriSheetData* sheet);
 

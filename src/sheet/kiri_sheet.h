@@ -162,16 +162,6 @@ typedef struct kiriPinAnchor {
 } kiriPinAnchor;
 
 /* Probes: the vertices that may touch other sheets, see kiri_touch.h. */
-/* Marks of a vertex of a piece that folds. */
-enum {
-    KIRI_FOLD_NEAR = 1,    /* another layer is near */
-    KIRI_FOLD_TANGLED = 2, /* on the wrong side of a layer */
-    KIRI_FOLD_PROBE = 8,
-    KIRI_FOLD_ABOVE = 16, /* above the layer in front of the probe; times 2: behind it */
-    KIRI_FOLD_BELOW = 64, /* the same below */
-    KIRI_FOLD_PLACE = KIRI_FOLD_PROBE | 3 * KIRI_FOLD_ABOVE | 3 * KIRI_FOLD_BELOW
-};
-
 typedef struct kiriProbes {
     bool isFresh;                    /* mesh and pieces have not changed since */
     bool folds;                      /* a piece folds, so that it may touch itself */
@@ -185,9 +175,9 @@ typedef struct kiriProbes {
     kiriPieceRow list;               /* probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* m/s, in the order of `list` */
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
-    KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
+    KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, behind and in front of it */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
-    kiriFlags marks;                 /* per vertex, in sheets that fold or have a detail layer: KIRI_FOLD_... of this tick */
+    kiriFlags marks;                 /* per vertex, in sheets that fold or have a detail layer: round of SpreadRooms, 1 for probes */
     KIRI_ARRAY(float) rooms;         /* m, per vertex of these: longest offset of the detail layer, */
     bool limits;                     /* which is limited in this tick */
 } kiriProbes;

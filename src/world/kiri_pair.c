@@ -23,10 +23,11 @@ static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
     return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
 }
 
-/* Returns the distance that two bodies keep, m. */
+/* Returns the distance that two bodies, or the layers of one, keep, m. */
 static double KeptDistance(const kiriBody* a, const kiriBody* b)
 {
-    return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
+    return a == b ? a->sheet->settings.foldThickness
+                  : 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
 /* ---- Contacts ---- */
@@ -71,7 +72,6 @@ bool kiriPairs_AddTouches(kiriWorld* world)
     return ok && kiriArrays_Reserve(&world->memory, count, &world->pairs.parents, &world->pairs.calms);
 }
 
-#define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
 #define MARGIN 0.5 /* of the distance that pieces keep: a gap up to this may close in the tick */
 #define SAME_SIDE 0.5 /* minimum cosine between the normals of a contact in two ticks */
 #define ALIKE 0.9  /* minimum cosine between normals of planes that are alike */
@@ -99,7 +99,8 @@ static kiriVec3 PlaceVelocity(const kiriPlace3* place)
     return velocity;
 }
 
-/* Returns the key of a touch: of two pieces, whose probe it is, and the probe; or of a sheet and vertices that fold. */
+/* Returns the key of a touch: of two pieces, a probe of the first, and whether the other is in front of it; or of an edge of
+   the first and a triangle of the other. */
 static uint64_t KeyOfTouch(uint64_t a, uint64_t b, uint64_t c, uint64_t d)
 {
     const uint64_t words[4] = { a, b, c, d }, kind = UINT64_C(3) << 60;
@@ -110,35 +111,34 @@ static uint64_t KeyOfTouch(uint64_t a, uint64_t b, uint64_t c, uint64_t d)
     return kind | hash >> 4;
 }
 
-/* Inside of the lower one the probes of the upper one feel it as well, where they are as near to each other. */
-static bool IsProbeNeeded(const kiriSheetData* lower, const kiriSheetData* upper, int32_t vertex)
+/* Inside of one of two bodies its border is enough: of the one with the larger squares. */
+static bool AreAllNeeded(const kiriBody* a, const kiriBody* b)
 {
-    return lower->probes.isBorder.data[vertex] ||
-           lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
+    double size = a->sheet->mesh.step * a->sheet->mesh.squares.side;
+    double other = b->sheet->mesh.step * b->sheet->mesh.squares.side;
+    return size < other || (size == other && a <= b);
 }
 
-/* Returns the largest approach of the two in the tick, m. The lower piece may be stopped by something below it. */
+/* Returns the largest approach of the two in the tick, m. Either may be stopped by something behind it. */
 static double Approach(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
     double falls = -kiriVec3_Dot(touch->normal, PlaceVelocity(&touch->upper));
     double rises = kiriVec3_Dot(touch->normal, touch->velocity);
-    double speed = falls + kiriMax(rises, 0.0) + dt * kiriVec3_Length(world->gravity);
-    return dt * kiriMax(speed, 0.0);
+    double speed = touch->isFold ? kiriMax(falls + rises, 0.0) : kiriMax(falls, 0.0) + kiriMax(rises, 0.0);
+    return dt * (speed + dt * kiriVec3_Length(world->gravity));
 }
 
-/* Adds a touch. A probe has one for each direction: if there are several surfaces behind each other, the nearest one. */
-static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
+/* Adds a touch to a slot of its probe: in front or behind. If there are several surfaces behind each other, the nearest one
+   counts. */
+static bool AddTouch(kiriWorld* world, int32_t* slot, const kiriPairTouch* touch)
 {
     kiriPairs* pairs = &world->pairs;
-    bool isAbove = touch->upper.vertex[1] == KIRI_NONE;
-    const kiriPlace3* probe = isAbove ? &touch->upper : &touch->lower;
-    int32_t* known = &probe->sheet->probes.touch.data[2 * probe->vertex[0] + isAbove];
-    if (*known == KIRI_NONE || kiriVec3_Dot(pairs->touches.data[*known].normal, touch->normal) < ALIKE) {
-        *known = pairs->touches.count;
+    if (*slot == KIRI_NONE || kiriVec3_Dot(pairs->touches.data[*slot].normal, touch->normal) < ALIKE) {
+        *slot = pairs->touches.count;
         return kiriArray_Push(&world->memory, &pairs->touches, *touch);
     }
-    if (touch->rank < pairs->touches.data[*known].rank) {
-        pairs->touches.data[*known] = *touch;
+    if (touch->rank < pairs->touches.data[*slot].rank) {
+        pairs->touches.data[*slot] = *touch;
     }
     return true;
 }
@@ -193,54 +193,6 @@ static double CompleteTouch(const kiriWorld* world, kiriPairTouch* touch, double
     return above;
 }
 
-/* Adds touches of probes of the upper piece above the lower one, and of the lower one below the upper one. Inside of
-   the lower piece, probes of the upper one are enough where they are as near to each other. */
-static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
-{
-    kiriPairs* pairs = &world->pairs;
-    kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
-    kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
-    double distance = KeptDistance(&pairs->bodies.data[pair->bodies[0]], &pairs->bodies.data[pair->bodies[1]]);
-    bool ok = true;
-    pair->touches = 0;
-    KIRI_FROM_TO_WHILE(ok, i, pair->nears.first, pair->nears.first + pair->nears.count) {
-        const kiriNear* near = &pairs->nears.data[i];
-        bool isUpper = near->body == pair->bodies[0], isNeeded = isUpper || IsProbeNeeded(lower, upper, near->vertex);
-        kiriPlace3 probe = VertexPlace(isUpper ? upper : lower, near->vertex);
-        kiriPlace3 place = TrianglePlace(isUpper ? lower : upper, near->triangle, near->share);
-        double along = pair->side;
-        along *= isUpper ? 1.0 : kiriVec3_Dot(kiriVertex_SkinNormal(lower, near->vertex), near->normal);
-        double sign = along >= 0.0 ? 1.0 : -1.0;
-        kiriPairTouch touch = { .key = KeyOfTouch(pair->upper, pair->lower, isUpper, (uint64_t)near->vertex),
-                                .upper = isUpper ? probe : place, .lower = isUpper ? place : probe,
-                                .normal = kiriVec3_Scale(sign, near->normal),
-                                .gap = (isUpper ? sign : -sign) * near->height, .distance = distance };
-        if (isNeeded && fabs(along) > ALONG) {
-            double above = CompleteTouch(world, &touch, distance, dt);
-            ok = !(above < (1.0 + MARGIN) * distance) || AddTouch(world, &touch);
-            pair->touches |= above < (1.0 + CLOSE) * distance;
-        }
-    }
-    return ok;
-}
-
-static bool TouchPairs(kiriWorld* world, double dt)
-{
-    bool ok = true;
-    KIRI_EACH(const kiriBody, body, world->pairs.bodies) {
-        const kiriProbes* probes = &body->sheet->probes;
-        KIRI_EACH_IN(i, kiriPieceRow_Of(&probes->list, body->piece)) {
-            int32_t* touch = &probes->touch.data[2 * probes->list.items.data[i]];
-            touch[0] = touch[1] = KIRI_NONE;
-        }
-    }
-    world->pairs.touches.count = 0;
-    KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, world->pairs.next) {
-        ok = pair->nears.count == 0 || TouchPair(world, pair, dt);
-    }
-    return ok;
-}
-
 /* ---- Calm ---- */
 
 /* Numbers the pieces that are awake. */
@@ -267,10 +219,10 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     kiriPairs* pairs = &world->pairs;
     ListAwake(world);
     KIRI_EACH(const kiriTouchingPair, pair, pairs->pairs) {
-        const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
-        if (pair->touches && upper != NULL && lower != NULL && upper != lower && kiriPiece_IsAwake(upper) &&
-            kiriPiece_IsAwake(lower)) {
-            kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
+        const kiriPiece *one = PieceOfBody(world, pair->ids[0]), *other = PieceOfBody(world, pair->ids[1]);
+        if (pair->touches && one != NULL && other != NULL && one != other && kiriPiece_IsAwake(one) &&
+            kiriPiece_IsAwake(other)) {
+            kiriUnion_Join(pairs->parents.data, one->awake, other->awake);
         }
     }
     KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
@@ -297,10 +249,6 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     }
 }
 
-#define LEVEL 0.2  /* of the direction from the lower to the upper one: less than that along gravity is level */
-#define TURNED_OVER 0.5 /* more than that against gravity: the lower one has become the upper one */
-#define FLAT 0.1   /* of the distance that they keep: nearer than that motion says which side it is */
-
 /* ---- Bodies ---- */
 
 static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
@@ -308,12 +256,8 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
     KIRI_EACH_INDEX(i, sheet->frames) {
         const kiriFrameData* frame = &sheet->frames.data[i];
         kiriBody* body = &pairs->bodies.data[firstBody + sheet->layout.framePiece.data[i]];
-        body->isHeld |= frame->held != 0;
         body->mass += frame->mass;
         body->momentum = kiriVec3_AddScaled(body->momentum, frame->mass, frame->velocity);
-    }
-    KIRI_EACH_LISTED(frame, sheet->layout.pinFrame) {
-        pairs->bodies.data[firstBody + sheet->layout.framePiece.data[frame]].isHeld = true;
     }
 }
 
@@ -341,7 +285,7 @@ static bool BeginRooms(kiriSheetData* sheet)
     bool begins = probes->rooms.count == 0;
     bool ok = !begins || kiriArrays_Resize(sheet->memory, probes->vertexPiece.count, &probes->marks, &probes->rooms);
     KIRI_EACH_INDEX_WHILE(ok && begins, v, probes->rooms) {
-        probes->marks.data[v] = probes->isChosen.data[v] ? KIRI_FOLD_PROBE : 0;
+        probes->marks.data[v] = probes->isChosen.data[v] ? 1 : UINT8_MAX;
         probes->rooms.data[v] = HUGE_VALF;
     }
     return ok;
@@ -360,7 +304,11 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         pairs->bodies.data[first + p] = (kiriBody){ .sheet = sheet, .piece = p, .id = sheet->frames.data[piece->frame].id,
                                                     .box = sheet->probes.boxes.data[p],
                                                     .speed = sheet->probes.speeds.data[p],
-                                                    .asleep = !kiriPiece_IsAwake(piece) };
+                                                    .asleep = !kiriPiece_IsAwake(piece),
+                                                    .folds = kiriPiece_Folds(sheet, p) };
+    }
+    KIRI_EACH_LISTED(v, sheet->probes.list.items) {
+        sheet->probes.touch.data[2 * v] = sheet->probes.touch.data[2 * v + 1] = KIRI_NONE;
     }
     SumFrames(pairs, sheet, first);
     MeasureStir(pairs, sheet, first);
@@ -504,23 +452,41 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
     return least;
 }
 
-/* Sets the nearest place on one triangle, if it lies within `most`; in a fold with its normal. Returns the square of its
-   distance, m^2. */
-static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, double most)
+static kiriVec3 FromPlace(const kiriNear* near, const kiriBody* bodies)
 {
     const kiriSurface* surface = &bodies[near->other].sheet->seen.surface;
-    kiriVec3 x[3], p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    kiriSurface_Corners(surface, triangle, x);
-    double share[3];
-    kiriTriangle_Nearest(x, p, share);
-    kiriVec3 off = kiriVec3_Sub(p, kiriSurface_Blend(surface, kiriSurface_Triangle(surface, triangle), share));
+    kiriVec3 under = kiriSurface_Blend(surface, kiriSurface_Triangle(surface, near->triangle), near->share);
+    return kiriVec3_Sub(kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex), under);
+}
+
+/* Sets the normal at the place, and the height of the probe. Between pieces the normal is continuous over edges, where
+   rounding chooses the triangle. In folds that would add energy. */
+static void SetNormal(kiriNear* near, const kiriBody* bodies)
+{
+    kiriSheetData* sheet = bodies[near->other].sheet;
+    kiriVec3 x[3];
+    kiriSurface_Corners(&sheet->seen.surface, near->triangle, x);
+    near->normal = near->body != near->other
+                       ? kiriTriangle_SkinNormal(sheet, near->triangle, near->share)
+                       : kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
+    near->height = kiriVec3_Dot(near->normal, FromPlace(near, bodies));
+}
+
+/* Sets the nearest place on one triangle, if it lies within `most`; on a body that folds with its normal. Returns the square
+   of its distance, m^2. */
+static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle, double most)
+{
+    kiriNear one = *near;
+    kiriVec3 x[3];
+    one.triangle = triangle;
+    kiriSurface_Corners(&bodies[near->other].sheet->seen.surface, triangle, x);
+    kiriTriangle_Nearest(x, kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex), one.share);
+    kiriVec3 off = FromPlace(&one, bodies);
     double squared = kiriVec3_Dot(off, off);
     if (squared <= most) {
-        near->triangle = triangle;
-        memcpy(near->share, share, sizeof(share));
-        if (near->body == near->other) {
-            near->normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(x[1], x[0]), kiriVec3_Sub(x[2], x[0])));
-            near->height = kiriVec3_Dot(near->normal, off);
+        *near = one;
+        if (bodies[near->other].folds) {
+            SetNormal(near, bodies);
         }
     }
     return squared;
@@ -540,17 +506,6 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
 static uint64_t NameOf(kiriFrame a, kiriFrame b)
 {
     return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
-}
-
-/* Returns the pair of two bodies in the last tick, or null. */
-static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiriFrame b)
-{
-    uint64_t name = NameOf(a, b);
-    int32_t low;
-    KIRI_SEARCH(low, 0, pairs->pairs.count,
-                NameOf(pairs->pairs.data[middle].upper, pairs->pairs.data[middle].lower) < name);
-    const kiriTouchingPair* found = &pairs->pairs.data[low];
-    return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
 #define MOST_SHARED 0.5  /* of the weights, on frames that carry both places: if more are shared, places move together */
@@ -595,18 +550,15 @@ static double FoldDistance(const kiriSheetData* sheet, const kiriNear* near, dou
     return most * kiriClamp(2.0 * (1.0 - shared / MOST_SHARED), 0.0, 1.0);
 }
 
-/* A search for places near a probe of a body, or for triangles that an edge crosses. A fold searches its own body. */
+/* A search for places near a probe of a body. A fold searches its own body. */
 typedef struct Search {
     kiriWorld* world;
     const kiriBody *body, *other;
     kiriVec3 ahead;     /* normal at the probe */
-    kiriNear found[2];  /* nearest to the probe; of a fold: in front, and behind */
+    kiriNear found[2];  /* nearest to the probe; of layers: in front, and behind */
     double least[2];    /* m^2: of their distance */
     double gap;         /* m^2: of the distance to another layer, whichever frames carry it */
     kiriNear layer;     /* nearest place of another layer */
-    int32_t edge, a, b; /* half-edge and its ends */
-    int32_t first;      /* index of its first touch */
-    bool ok;
 } Search;
 
 /* Keeps the nearest place. At equal distances the lowest triangle counts. */
@@ -622,7 +574,7 @@ static double LookAtPlace(void* context, int32_t triangle)
     }
     double squared = Measure(&one, search->world->pairs.bodies.data, triangle, most);
     double across = one.height * one.height, rest = 0.0;
-    int side = isFold && !(one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0);
+    int side = search->other->folds && !(one.height * kiriVec3_Dot(one.normal, search->ahead) < 0.0);
     bool isFirst = squared == search->least[side] && triangle < search->found[side].triangle;
     if (squared <= most) {
         rest = isFold ? DistanceAtRest(search->body->sheet, &one) : HUGE_VAL;
@@ -636,8 +588,10 @@ static double LookAtPlace(void* context, int32_t triangle)
     if (squared < search->least[side] || isFirst) {
         bool isEdge = one.share[0] <= 0.0 || one.share[1] <= 0.0 || one.share[2] <= 0.0;
         double aslant = isEdge && squared > across ? sqrt((squared - across) / across) / STEEP : 0.0;
-        if (isFold) { /* less beside the border, and where a neighbor is nearer */
-            one.kept = FoldDistance(search->body->sheet, &one, rest, sqrt(squared)) * kiriMax(1.0 - aslant, 0.0);
+        if (search->other->folds) { /* less beside the border, and where a neighbor is nearer */
+            double kept = isFold ? FoldDistance(search->body->sheet, &one, rest, sqrt(squared))
+                                 : KeptDistance(search->body, search->other);
+            one.kept = isFold ? kept * kiriMax(1.0 - aslant, 0.0) : aslant < 1.0 ? kept : 0.0;
         }
         if (one.kept > 0.0) {
             search->least[side] = squared;
@@ -645,17 +599,6 @@ static double LookAtPlace(void* context, int32_t triangle)
         }
     }
     return kiriMax(kiriMax(search->least[0], search->least[1]), search->gap);
-}
-
-static void MarkFold(kiriSheetData* sheet, const kiriNear* near, int layer)
-{
-    KIRI_ASSERT_HAS(sheet->probes.marks, near->vertex);
-    const int32_t* corners = kiriSurface_Triangle(&sheet->seen.surface, near->triangle);
-    int place = near->height >= 0.0 ? KIRI_FOLD_ABOVE : KIRI_FOLD_BELOW;
-    sheet->probes.marks.data[near->vertex] |= (uint8_t)(KIRI_FOLD_NEAR | place << layer);
-    KIRI_TIMES(k, 3) {
-        sheet->probes.marks.data[corners[k]] |= near->share[k] > 0.0 ? KIRI_FOLD_NEAR : 0;
-    }
 }
 
 #define ROOM_KEPT 0.5    /* of the distance that layers keep: offsets end before */
@@ -702,9 +645,6 @@ static void SpreadRooms(kiriSheetData* sheet)
     float* rooms = sheet->probes.rooms.data;
     bool isSpread = sheet->probes.limits && surface->detail.sweeps > 0;
     KIRI_ASSERT(!isSpread || sheet->probes.rooms.count == surface->vertexCount);
-    KIRI_EACH_WHILE(isSpread, uint8_t, mark, sheet->probes.marks) {
-        *mark = (*mark & KIRI_FOLD_PROBE) != 0 ? 1 : UINT8_MAX;
-    }
     for (uint8_t round = 1; isSpread && round < UINT8_MAX; ++round) {
         isSpread = false;
         KIRI_TIMES(h, 3 * surface->triangleCount) {
@@ -722,8 +662,8 @@ static void SpreadRooms(kiriSheetData* sheet)
 }
 
 /* Finds the places of another body that are nearest to probes of a body, within `reach`; of the same body, in front and
-   behind. Leaves out places on the border if the probe lies beside the other body. A body that was the lower one in the
-   last tick needs some probes alone. Bounds must be up to date. Fails on out of memory. */
+   behind. Places on the border keep no distance if the probe lies beside the other body. Bounds must be up to date. Fails on out
+   of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -733,28 +673,27 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     kiriGroup piece = { b->sheet->probes.vertexPiece.data, b->piece };
     kiriBox box = Widened(&b->box, reach);
     kiriVec3 mean = kiriVec3_Scale(1.0 / a->mass, a->momentum);
-    const kiriTouchingPair* old = FindOld(pairs, a->id, b->id);
-    bool isLower = old != NULL && old->lower == a->id, isFold = a == b, ok = true;
+    bool isFold = a == b, areAll = AreAllNeeded(a, b), ok = true;
     bool limits = isFold || (!a->asleep && a->sheet->seen.surface.detail.sweeps > 0);
-    double kept = isFold ? a->sheet->settings.foldThickness : KeptDistance(a, b);
+    double kept = KeptDistance(a, b);
     Search search = { .world = world, .body = a, .other = b };
     KIRI_ASSERT(a->mass > 0.0 && probes->velocities.count == probes->list.items.count);
     KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
         kiriNear none = { .body = body, .other = other, .vertex = probes->list.items.data[i], .triangle = KIRI_NONE };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, none.vertex);
-        if (!kiriBox_Meet(&box, &(kiriBox){ x, x }) || (isLower && !IsProbeNeeded(a->sheet, b->sheet, none.vertex))) {
+        if (!kiriBox_Meet(&box, &(kiriBox){ x, x }) || !(areAll || probes->isBorder.data[none.vertex])) {
             continue;
         }
         double own = isFold ? reach + dt * kiriVec3_Distance(probes->velocities.data[i], mean) : reach;
-        none.kept = KeptDistance(a, b);
+        none.kept = kept;
         search.found[0] = search.found[1] = none;
         search.least[0] = own * own;
-        search.least[1] = isFold ? own * own : 0.0;
+        search.least[1] = b->folds ? own * own : 0.0;
         double widest = limits ? WidestRoom(a->sheet, none.vertex, kept) : 0.0;
         double wide = limits ? 2.0 * widest + ROOM_KEPT * kept : 0.0;
         search.gap = wide * wide;
         search.layer = none;
-        if (isFold) {
+        if (b->folds) {
             search.ahead = kiriVertex_SkinNormal(a->sheet, none.vertex);
         }
         kiriBounds_Nearest(b->sheet->seen.bounds, &b->sheet->seen.surface, piece, &(kiriBox){ x, x },
@@ -762,19 +701,13 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         if (isFold || search.layer.triangle != KIRI_NONE) {
             LimitRoom(&search, none.vertex, widest, kept, dt);
         }
-        if (!isFold && search.found[0].triangle != KIRI_NONE) { /* continuous over edges, where rounding chooses the triangle */
-            kiriNear* near = &search.found[0];
-            const kiriSurface* surface = &b->sheet->seen.surface;
-            kiriVec3 under = kiriSurface_Blend(surface, kiriSurface_Triangle(surface, near->triangle), near->share);
-            near->normal = kiriTriangle_SkinNormal(b->sheet, near->triangle, near->share);
-            near->height = kiriVec3_Dot(near->normal, kiriVec3_Sub(x, under));
-        }
         KIRI_TIMES_WHILE(ok, k, 2) {
-            const kiriNear* near = &search.found[k];
-            if (near->triangle != KIRI_NONE && (isFold || !IsBeside(near, bodies, near->kept, search.least[k]))) {
-                if (isFold) {
-                    MarkFold(a->sheet, near, k);
-                }
+            kiriNear* near = &search.found[k];
+            if (near->triangle != KIRI_NONE && !b->folds) {
+                SetNormal(near, bodies);
+            }
+            if (near->triangle != KIRI_NONE) {
+                near->kept = isFold || !IsBeside(near, bodies, kept, search.least[k]) ? near->kept : 0.0;
                 ok = kiriArray_Push(&world->memory, &pairs->nears, *near);
             }
         }
@@ -782,88 +715,37 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     return ok;
 }
 
-/* ---- Which is where ---- */
+/* ---- Sides ---- */
 
-/* Returns the height of the probe above the place, along the place's normal. If both are at the same height, returns
-   its change in the tick. */
-static double Above(const kiriPairs* pairs, const kiriNear* near, double dt)
-{
-    const kiriBody *a = &pairs->bodies.data[near->body], *b = &pairs->bodies.data[near->other];
-    if (fabs(near->height) >= FLAT * KeptDistance(a, b)) {
-        return near->height;
-    }
-    kiriPlace3 place = TrianglePlace(b->sheet, near->triangle, near->share);
-    kiriVec3 v = kiriVec3_Sub(kiriProbe_Velocity(a->sheet, near->vertex), PlaceVelocity(&place));
-    return near->height + dt * kiriVec3_Dot(near->normal, v);
-}
+#define FLAT 0.1  /* of the distance that they keep: nearer than that motion says which side it is */
+#define ALONG 0.3 /* minimum cosine between surfaces that lie on each other */
+#define SURE 4.0  /* of the distance that they keep: a probe farther away is on its own side, whichever the pair has */
 
-/* Returns the direction from body b to body a, by the near places. */
-static kiriVec3 DirectionFrom(const kiriPairs* pairs, kiriSpan nears, int32_t a, double dt)
+/* Returns the side of the normals of the body with the higher id on which the other one lies: as most places say, unless they
+   said otherwise in the last tick. 0: a body that folds has no side. */
+static int32_t SideOfPair(const kiriPairs* pairs, const kiriBody* one, const kiriBody* other, kiriSpan nears, double dt)
 {
-    kiriVec3 sum = { 0 };
+    int32_t at;
+    uint64_t name = NameOf(one->id, other->id);
+    KIRI_SEARCH(at, 0, pairs->pairs.count,
+                NameOf(pairs->pairs.data[middle].ids[0], pairs->pairs.data[middle].ids[1]) < name);
+    const kiriTouchingPair* old = &pairs->pairs.data[at];
+    bool isOld = at < pairs->pairs.count && NameOf(old->ids[0], old->ids[1]) == name;
+    const kiriBody* of = one->id > other->id ? one : other;
+    double sum = isOld ? KeptDistance(one, other) * old->side * nears.count : 0.0;
     KIRI_EACH_IN(i, nears) {
         const kiriNear* near = &pairs->nears.data[i];
-        double above = Above(pairs, near, dt);
-        sum = kiriVec3_AddScaled(sum, near->body == a ? above : -above, near->normal);
+        bool isOf = &pairs->bodies.data[near->body] == of;
+        double along = isOf ? -kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(of->sheet, near->vertex)) : 1.0;
+        sum += along * near->height;
+        if (fabs(near->height) < FLAT * KeptDistance(one, other)) { /* at the same height: how it changes in the tick */
+            kiriPlace3 place = TrianglePlace(pairs->bodies.data[near->other].sheet, near->triangle, near->share);
+            kiriVec3 v = PlaceVelocity(&place);
+            v = kiriVec3_Sub(kiriProbe_Velocity(pairs->bodies.data[near->body].sheet, near->vertex), v);
+            sum += along * dt * kiriVec3_Dot(near->normal, v);
+        }
     }
-    return kiriVec3_Normalize(sum);
-}
-
-/* Returns the side of the lower body's normals on which the upper body lies. */
-static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower, double dt)
-{
-    const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
-    double sum = 0.0;
-    KIRI_EACH_IN(i, nears) {
-        const kiriNear* near = &pairs->nears.data[i];
-        double above = Above(pairs, near, dt);
-        sum += near->body == lower ? -above * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) : above;
-    }
-    return sum >= 0.0 ? 1 : -1;
-}
-
-/* Returns true if body a lies above body b, against gravity. Side by side, the upper one is the one that is not held,
-   or the lighter one, because it gives way. */
-static bool IsUpper(const kiriWorld* world, const kiriBody* a, const kiriBody* b, kiriVec3 direction)
-{
-    double up = -kiriVec3_Dot(direction, kiriVec3_Normalize(world->gravity));
-    if (fabs(up) > LEVEL) {
-        return up > 0.0;
-    }
-    if (a->isHeld != b->isHeld) {
-        return b->isHeld;
-    }
-    return a->mass < b->mass || (a->mass == b->mass && a->id < b->id);
-}
-
-/* Returns true if the previous lower body has become the upper one. That depends on its own turn, not on the position
-   of the other body: pieces that cross do not swap places. */
-static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, int32_t lower, kiriSpan nears)
-{
-    const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    KIRI_EACH_IN(i, nears) {
-        const kiriNear* near = &world->pairs.nears.data[i];
-        sum = kiriVec3_Add(sum, near->body == lower ? kiriVertex_SkinNormal(sheet, near->vertex) : near->normal);
-    }
-    kiriVec3 up = kiriVec3_Scale(old->side, kiriVec3_Normalize(sum));
-    return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED_OVER;
-}
-
-static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kiriSpan nears, double dt)
-{
-    const kiriPairs* pairs = &world->pairs;
-    const kiriBody *one = &pairs->bodies.data[a], *other = &pairs->bodies.data[b];
-    const kiriTouchingPair* old = FindOld(pairs, one->id, other->id);
-    int32_t last = old != NULL && old->upper == one->id ? b : a; /* the lower one in the last tick */
-    if (old != NULL && HasSideTurned(world, old, last, nears)) {
-        old = NULL;
-    }
-    bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));
-    int32_t upper = isUpper ? a : b, lower = isUpper ? b : a;
-    int32_t side = old != NULL ? old->side : SideOfPair(pairs, nears, lower, dt);
-    return (kiriTouchingPair){ pairs->bodies.data[upper].id, pairs->bodies.data[lower].id, side, 0, { upper, lower },
-                               nears };
+    return one->folds || other->folds ? 0 : sum >= 0.0 ? 1 : -1;
 }
 
 /* ---- Pairs ---- */
@@ -906,7 +788,8 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
         return false;
     }
     nears.count = pairs->nears.count - nears.first;
-    return nears.count == 0 || kiriArray_Push(&world->memory, &pairs->found, Decide(world, a, b, nears, dt));
+    kiriTouchingPair pair = { { one->id, other->id }, SideOfPair(pairs, one, other, nears, dt), 0, nears };
+    return nears.count == 0 || kiriArray_Push(&world->memory, &pairs->found, pair);
 }
 
 static bool IsFarther(const void* context, int32_t a, int32_t b)
@@ -942,12 +825,13 @@ static bool LookAtAll(kiriWorld* world, double dt)
     return ok;
 }
 
-/* ---- Folds ----
+/* ---- Touches ----
 
-   A probe of a piece that folds touches the nearest place of the piece in front of it, and the nearest one behind it. It
-   stays on its side of both. An edge that crosses a triangle is moved so that the line in which the surfaces cross gets
-   shorter: sides are not stored (Volino, Magnenat-Thalmann, Resolving surface collisions through intersection contour
-   minimization, 2006). */
+   A probe touches the nearest place of a piece. Pieces that do not fold stay on one side of each other, so that lips of a
+   cut, which begin in one plane, part. Where a piece folds, a probe touches the nearest place in front of it and the nearest
+   one behind it, and stays on the side of both on which it is. An edge that crosses a triangle is moved so that the line in
+   which the surfaces cross gets shorter (Volino, Magnenat-Thalmann, Resolving surface collisions through intersection
+   contour minimization, 2006). */
 
 #define GRAZING 0.2      /* minimum sine of the angle between an edge and a triangle that it crosses */
 #define LEAST_TURN 0.2     /* change of the length of the line per length of a move: less gives no direction */
@@ -974,104 +858,166 @@ static kiriVec3 ShortenLine(const kiriSheetData* sheet, int32_t edge, kiriVec3 a
     return sum;
 }
 
-/* Adds a touch of the edge and a triangle if they cross. The end that is on the wrong side is marked. Touches of an edge
-   are sorted by key, since a load builds another tree, which visits triangles in another order. */
+/* The sheet of the upper place has the row. If it sleeps, the places change. */
+static void TurnToAwake(const kiriBody* body, const kiriBody* other, kiriPairTouch* touch)
+{
+    if (body->asleep && !other->asleep) {
+        kiriPlace3 upper = touch->lower;
+        touch->lower = touch->upper;
+        touch->upper = upper;
+        touch->normal = kiriVec3_Scale(-1.0, touch->normal);
+    }
+}
+
+/* A search for triangles that an edge at a probe crosses. */
+typedef struct Tangle {
+    kiriWorld* world;
+    const kiriBody *body, *other;
+    kiriSpan nears;     /* of the two */
+    int32_t edge, a, b; /* half-edge and its ends */
+    int32_t first;      /* index of the first touch of the two */
+    bool ok;
+} Tangle;
+
+/* A vertex on the wrong side keeps no distance, if it is a probe. */
+static void FreeProbe(Tangle* tangle, int32_t vertex)
+{
+    const kiriPairs* pairs = &tangle->world->pairs;
+    int32_t body = (int32_t)(tangle->body - pairs->bodies.data), end = tangle->nears.first + tangle->nears.count, at;
+    const kiriNear* nears = pairs->nears.data;
+    KIRI_SEARCH(at, tangle->nears.first, end,
+                nears[middle].body < body || (nears[middle].body == body && nears[middle].vertex < vertex));
+    for (; at < end && nears[at].body == body && nears[at].vertex == vertex; ++at) {
+        pairs->nears.data[at].kept = 0.0;
+    }
+}
+
+/* Adds a touch of the edge and a triangle if they cross. */
 static double LookAtCrossing(void* context, int32_t triangle)
 {
-    Search* search = context;
-    kiriSheetData* sheet = search->body->sheet;
+    Tangle* tangle = context;
+    kiriSheetData *sheet = tangle->body->sheet, *under = tangle->other->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* c = kiriSurface_Triangle(surface, triangle);
+    bool isFold = tangle->body == tangle->other;
+    const int32_t* c = kiriSurface_Triangle(&under->seen.surface, triangle);
     KIRI_TIMES(k, 3) {
-        if (c[k] == search->a || c[k] == search->b) {
-            return search->least[0];
+        if (isFold && (c[k] == tangle->a || c[k] == tangle->b)) {
+            return 0.0;
         }
     }
-    kiriVec3 p = kiriSurface_At(surface, search->a), along = kiriVec3_Sub(kiriSurface_At(surface, search->b), p), corner[3];
+    kiriVec3 p = kiriSurface_At(surface, tangle->a), along = kiriVec3_Sub(kiriSurface_At(surface, tangle->b), p), corner[3];
     kiriNear near = { .triangle = triangle };
-    double part;
-    kiriSurface_Corners(surface, triangle, corner);
+    double part, kept = KeptDistance(tangle->body, tangle->other);
+    kiriSurface_Corners(&under->seen.surface, triangle, corner);
     if (!kiriTriangle_Cross(corner, p, along, &part, near.share) || !(part > 0.0 && part <= 1.0)) {
-        return search->least[0];
+        return 0.0;
     }
-    kiriPairTouch touch = { .upper = { sheet, { search->a, search->b, KIRI_NONE }, { 1.0 - part, part, 0.0 } },
+    kiriPairTouch touch = { .upper = { sheet, { tangle->a, tangle->b, KIRI_NONE }, { 1.0 - part, part, 0.0 } },
                             .isFold = true, .touch = KIRI_NONE };
     kiriVec3 at = kiriVec3_AddScaled(p, part, along);
     along = kiriVec3_Normalize(along);
     kiriVec3 normal = kiriVec3_Cross(kiriVec3_Sub(corner[1], corner[0]), kiriVec3_Sub(corner[2], corner[0]));
-    kiriVec3 out = ShortenLine(sheet, search->edge, at, along, kiriVec3_Normalize(normal));
-    touch.lower = TrianglePlace(sheet, triangle, near.share);
-    if (AreSewn(&touch.upper, &touch.lower, sheet->settings.foldThickness)) {
-        return search->least[0];
+    kiriVec3 unit = kiriVec3_Normalize(normal), out = ShortenLine(sheet, tangle->edge, at, along, unit);
+    bool areLips = !isFold && fabs(kiriVec3_Dot(along, unit)) < GRAZING; /* beside each other in one plane */
+    touch.lower = TrianglePlace(under, triangle, near.share);
+    if (areLips || AreSewn(&touch.upper, &touch.lower, kept)) {
+        return 0.0;
     }
     bool goesUp = kiriVec3_Dot(out, normal) > 0.0, isBelow = kiriVec3_Dot(along, normal) > 0.0;
-    KIRI_ASSERT_HAS(sheet->probes.marks, search->b);
-    sheet->probes.marks.data[goesUp == isBelow ? search->a : search->b] |= KIRI_FOLD_TANGLED;
-    near.vertex = part < 0.5 ? search->a : search->b;
-    touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)search->a, (uint64_t)search->b, (uint64_t)triangle);
+    FreeProbe(tangle, goesUp == isBelow ? tangle->a : tangle->b);
+    near.vertex = part < 0.5 ? tangle->a : tangle->b;
+    touch.key = KeyOfTouch(tangle->body->id, tangle->other->id, NameOf((uint32_t)tangle->a, (uint32_t)tangle->b),
+                           2 + (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
-    touch.distance = FoldDistance(sheet, &near, DistanceAtRest(sheet, &near), 0.0);
+    touch.distance = isFold ? FoldDistance(sheet, &near, DistanceAtRest(sheet, &near), 0.0) : kept;
+    touch.velocity = PlaceVelocity(&touch.lower);
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
-        kiriPairs* pairs = &search->world->pairs;
-        search->ok = search->ok && kiriArray_Push(&search->world->memory, &pairs->touches, touch);
-        kiriPairTouch* data = pairs->touches.data;
-        for (int32_t i = pairs->touches.count - 1; search->ok && i > search->first && data[i - 1].key > touch.key; --i) {
-            data[i] = data[i - 1];
-            data[i - 1] = touch;
+        TurnToAwake(tangle->body, tangle->other, &touch);
+        tangle->ok = tangle->ok && kiriArray_Push(&tangle->world->memory, &tangle->world->pairs.touches, touch);
+        /* Sorted by key, since a load builds other trees, which visit triangles in another order. */
+        kiriPairTouch* touches = tangle->world->pairs.touches.data;
+        int32_t last = tangle->world->pairs.touches.count - 1;
+        for (int32_t i = last; tangle->ok && i > tangle->first && touches[i - 1].key > touch.key; --i) {
+            touches[i] = touches[i - 1];
+            touches[i - 1] = touch;
         }
     }
-    return search->least[0];
+    return 0.0;
 }
 
-/* Looks at edges near a layer. If both ends are probes on the same sides of their layers, the edge crosses none. */
-static bool TouchTangles(Search* search)
+/* Looks at the edges of a triangle, each once. */
+static double LookAtEdges(void* context, int32_t triangle)
 {
-    const kiriSheetData* sheet = search->body->sheet;
-    const kiriSurface* surface = &sheet->seen.surface;
-    const uint8_t* marks = sheet->probes.marks.data;
-    kiriGroup group = { sheet->probes.vertexPiece.data, search->body->piece };
-    KIRI_TIMES_WHILE(search->ok, h, 3 * sheet->mesh.triangles.count) {
-        bool isOpen = kiriMesh_IsOpen(&sheet->mesh, h);
-        search->edge = h;
-        search->first = search->world->pairs.touches.count;
-        search->a = kiriMesh_Tail(&sheet->mesh, h);
-        search->b = kiriMesh_Tail(&sheet->mesh, kiriEdge_Next(h));
-        uint8_t either = marks[search->a] | marks[search->b], differ = marks[search->a] ^ marks[search->b];
-        bool mayCross = (either & KIRI_FOLD_NEAR) != 0 &&
-                        ((differ & KIRI_FOLD_PLACE) != 0 || (either & KIRI_FOLD_PROBE) == 0);
-        if (mayCross && (isOpen || kiriMesh_Twin(&sheet->mesh, h) < h) && group.ofVertex[search->a] == group.group) {
-            kiriVec3 p = kiriSurface_At(surface, search->a), q = kiriSurface_At(surface, search->b);
-            kiriVec3 along = kiriVec3_Sub(q, p);
+    Tangle* tangle = context;
+    kiriSheetData *sheet = tangle->body->sheet, *under = tangle->other->sheet;
+    kiriGroup group = { under->probes.vertexPiece.data, tangle->other->piece };
+    KIRI_TIMES_WHILE(tangle->ok, k, 3) {
+        int32_t edge = 3 * triangle + k, twin = kiriMesh_Twin(&sheet->mesh, edge);
+        if (kiriMesh_IsOpen(&sheet->mesh, edge) || twin < edge) {
+            tangle->edge = edge;
+            tangle->a = kiriMesh_Tail(&sheet->mesh, edge);
+            tangle->b = kiriMesh_Head(&sheet->mesh, edge);
+            kiriVec3 p = kiriSurface_At(&sheet->seen.surface, tangle->a), q = kiriSurface_At(&sheet->seen.surface, tangle->b);
             kiriBox box = { kiriVec3_Least(p, q), kiriVec3_Most(p, q) };
-            search->least[0] = 1e-12 * kiriVec3_Dot(along, along); /* rounding */
-            kiriBounds_Nearest(sheet->seen.bounds, surface, group, &box, search->least[0], LookAtCrossing, search);
+            double most = 1e-12 * kiriVec3_Distance(p, q) * kiriVec3_Distance(p, q); /* rounding */
+            kiriBounds_Nearest(under->seen.bounds, &under->seen.surface, group, &box, most, LookAtCrossing, tangle);
         }
     }
-    return search->ok;
+    return 0.0;
 }
 
-/* Adds touches of probes and their near layers. Probes on the wrong side, and lips of a seam, have none. */
-static bool TouchLayers(Search* search, int32_t first, double dt)
+/* Adds touches of edges of a body that cross another one, or another layer. */
+static bool TouchTangles(kiriWorld* world, int32_t a, int32_t b, kiriSpan nears)
 {
-    kiriWorld* world = search->world;
-    kiriSheetData* sheet = search->body->sheet;
-    bool ok = true;
-    KIRI_FROM_TO_WHILE(ok, i, first, world->pairs.nears.count) {
-        const kiriNear* near = &world->pairs.nears.data[i];
-        KIRI_ASSERT(near->kept > 0.0 && near->triangle != KIRI_NONE);
-        double side = near->height >= 0.0 ? 1.0 : -1.0;
-        bool isAhead = near->height * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) < 0.0;
-        kiriPairTouch touch = { .upper = VertexPlace(sheet, near->vertex), .isFold = true };
-        touch.lower = TrianglePlace(sheet, near->triangle, near->share);
-        touch.key = KeyOfTouch(sheet->frames.data[0].id, (uint64_t)near->vertex, (uint64_t)near->vertex, isAhead);
+    const kiriBody *body = &world->pairs.bodies.data[a], *other = &world->pairs.bodies.data[b];
+    Tangle tangle = { .world = world, .body = body, .other = other, .nears = nears, .ok = true };
+    tangle.first = world->pairs.touches.count;
+    kiriGroup group = { body->sheet->probes.vertexPiece.data, body->piece };
+    kiriBounds_Nearest(body->sheet->seen.bounds, &body->sheet->seen.surface, group, &other->box, 0.0, LookAtEdges, &tangle);
+    return tangle.ok;
+}
+
+/* Adds touches of probes and the places near them. Probes on the wrong side, and lips of a seam, have none. `touches`
+   becomes 1 if there are some that push. */
+static bool TouchNears(kiriWorld* world, kiriSpan nears, double dt, int32_t sideOfPair, int32_t* touches)
+{
+    kiriPairs* pairs = &world->pairs;
+    int32_t first = pairs->touches.count;
+    int32_t a = pairs->nears.data[nears.first].body, b = pairs->nears.data[nears.first].other;
+    bool ok = TouchTangles(world, a, b, nears) && (a == b || TouchTangles(world, b, a, nears));
+    *touches = pairs->touches.count > first;
+    KIRI_FROM_TO_WHILE(ok, i, nears.first, nears.first + nears.count) {
+        const kiriNear* near = &pairs->nears.data[i];
+        const kiriBody *body = &pairs->bodies.data[near->body], *other = &pairs->bodies.data[near->other];
+        bool isFold = body == other;
+        KIRI_ASSERT(near->triangle != KIRI_NONE);
+        double ahead = kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(body->sheet, near->vertex));
+        double belongs = fabs(near->height) < SURE * near->kept ? sideOfPair * (body->id > other->id ? -ahead : 1.0) : 0.0;
+        double side = (fabs(belongs) < ALONG ? near->height : belongs) >= 0.0 ? 1.0 : -1.0;
+        bool isAhead = side * ahead < 0.0;
+        kiriPairTouch touch = { .upper = VertexPlace(body->sheet, near->vertex), .isFold = isFold };
+        touch.lower = TrianglePlace(other->sheet, near->triangle, near->share);
+        touch.key = KeyOfTouch(body->id, other->id, (uint64_t)near->vertex, isAhead);
         touch.normal = kiriVec3_Scale(side, near->normal);
         touch.gap = side * near->height;
         touch.distance = near->kept;
-        bool isTangled = (sheet->probes.marks.data[near->vertex] & KIRI_FOLD_TANGLED) != 0;
-        double most = (1.0 + MARGIN) * touch.distance;
-        if (!isTangled && CompleteTouch(world, &touch, sheet->settings.foldThickness, dt) < most) {
-            ok = kiriArray_Push(&world->memory, &world->pairs.touches, touch);
+        TurnToAwake(body, other, &touch);
+        double above = near->kept > 0.0 ? CompleteTouch(world, &touch, KeptDistance(body, other), dt) : HUGE_VAL;
+        if (above < (1.0 + MARGIN) * touch.distance) {
+            int32_t none = KIRI_NONE, *slot = &body->sheet->probes.touch.data[2 * near->vertex + isAhead];
+            ok = AddTouch(world, isFold ? &none : slot, &touch);
         }
+        *touches |= above < (1.0 + CLOSE) * touch.distance;
+    }
+    return ok;
+}
+
+static bool TouchPairs(kiriWorld* world, double dt)
+{
+    bool ok = true;
+    world->pairs.touches.count = 0;
+    KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, world->pairs.next) {
+        ok = pair->nears.count == 0 || TouchNears(world, pair->nears, dt, pair->side, &pair->touches);
     }
     return ok;
 }
@@ -1106,10 +1052,13 @@ static bool TouchFolds(kiriWorld* world, double dt)
                 const kiriBody* at = &world->pairs.bodies.data[body + p];
                 double falling = dt * kiriVec3_Length(world->gravity);
                 double reach = 2.0 * sheet->settings.foldThickness + dt * kiriMax(falling, at->stir);
-                Search search = { .world = world, .body = at, .other = at, .ok = true };
-                int32_t first = world->pairs.nears.count;
-                ok = !kiriPiece_Folds(sheet, p) || (FindNears(world, body + p, body + p, reach, dt) &&
-                                                    TouchTangles(&search) && TouchLayers(&search, first, dt));
+                kiriSpan nears = { world->pairs.nears.count, 0 };
+                if (at->folds && !at->asleep) {
+                    int32_t touches;
+                    ok = FindNears(world, body + p, body + p, reach, dt);
+                    nears.count = world->pairs.nears.count - nears.first;
+                    ok = ok && (nears.count == 0 || TouchNears(world, nears, dt, 0, &touches));
+                }
             }
         }
         SpreadRooms(sheet);
@@ -1130,7 +1079,7 @@ static bool KeepSleeping(kiriWorld* world)
     bool ok = true;
     KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, pairs->pairs) {
         pair->nears.count = 0;
-        ok = !IsPairAsleep(world, pair->upper) || !IsPairAsleep(world, pair->lower) ||
+        ok = !IsPairAsleep(world, pair->ids[0]) || !IsPairAsleep(world, pair->ids[1]) ||
              kiriArray_Push(&world->memory, &pairs->found, *pair);
     }
     return ok;
@@ -1139,7 +1088,7 @@ static bool KeepSleeping(kiriWorld* world)
 static bool IsBefore(const void* context, int32_t a, int32_t b)
 {
     const kiriTouchingPair* pairs = context;
-    return NameOf(pairs[a].upper, pairs[a].lower) < NameOf(pairs[b].upper, pairs[b].lower);
+    return NameOf(pairs[a].ids[0], pairs[a].ids[1]) < NameOf(pairs[b].ids[0], pairs[b].ids[1]);
 }
 
 static bool SortFound(kiriWorld* world)
@@ -1181,9 +1130,9 @@ static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
 {
     bool any = false;
     KIRI_EACH(const kiriTouchingPair, pair, *pairs) {
-        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
-        if (pair->touches && isUpperAsleep != isLowerAsleep) {
-            const kiriSlot* slot = kiriPool_Find(&world->frameIds, isUpperAsleep ? pair->upper : pair->lower);
+        bool isAsleep = SleepsOn(world, pair->ids[0]);
+        if (pair->touches && isAsleep != SleepsOn(world, pair->ids[1])) {
+            const kiriSlot* slot = kiriPool_Find(&world->frameIds, pair->ids[!isAsleep]);
             kiriSheetData* sheet = slot->owner;
             kiriSheet_PieceOf(sheet, slot->index)->rest.isStirred = sheet->rest.isStirred = any = true;
         }
@@ -1208,7 +1157,11 @@ int32_t kiriPairs_CountAwake(const kiriWorld* world)
 {
     int32_t count = 0;
     KIRI_EACH(const kiriTouchingPair, pair, world->pairs.pairs) {
-        count += pair->nears.count > 0;
+        bool isNear = false;
+        KIRI_EACH_IN(i, pair->nears) {
+            isNear |= world->pairs.nears.data[i].kept > 0.0;
+        }
+        count += isNear;
     }
     return count;
 }

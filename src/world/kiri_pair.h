@@ -1,10 +1,7 @@
-/* Pairs: pieces, of one sheet or of two, that are near each other, and the side of the lower piece on which the upper
-   piece lies.
+/* Pairs: pieces, of one sheet or of two, that are near each other, and their contacts.
 
-   A pair keeps its side as long as the two are near: the upper piece stays on that side of the lower one. Triangles
-   have sides by the order of their corners in the rest plane. If each point had a separate side, pieces that have
-   crossed would never come to rest: some points push one way, others the other way. Gravity decides which piece is called
-   the upper one. */
+   Two pieces that do not fold stay on one side of each other. Else each probe stays on its side of the layers near it. Where
+   surfaces have crossed, the line in which they cross is made shorter until it is gone. */
 #ifndef KIRI_PAIR_H
 #define KIRI_PAIR_H
 
@@ -22,7 +19,7 @@ bool kiriPairs_Stir(const kiriWorld* world);
 /* Replaces the pairs by the new ones. */
 void kiriPairs_Commit(kiriWorld* world);
 
-/* Adds contacts to the sheets of upper pieces. Skips sheets that are not active, because they do not move. Call it
+/* Adds contacts to the sheets of upper places. Skips sheets that are not active, because they do not move. Call it
    between kiriTouches_Begin and kiriTouches_Reserve. Fails on out of memory. */
 bool kiriPairs_AddTouches(kiriWorld* world);
 

@@ -16,8 +16,8 @@ KIRI_TABLE(PairTable, kiriTouchingPair, {
     KIRI_WITHIN(-1, 1, side),
     KIRI_WITHIN(0, 1, touches),
     KIRI_UNHASHED,
-    KIRI_RUN(4, upper, lower),
-    KIRI_DROPPED(bodies, nears),
+    KIRI_RUN(4, ids),
+    KIRI_DROPPED(nears),
 })
 
 KIRI_TABLE(PairsTable, kiriPairs, {
@@ -146,7 +146,7 @@ KIRI_TABLE(WorldTable, kiriWorld, {
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
-enum { SAVE_VERSION = 4, HEAD_BYTES = 24, SUM_BYTES = 8 };
+enum { SAVE_VERSION = 5, HEAD_BYTES = 24, SUM_BYTES = 8 };
 
 static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 {

@@ -20,7 +20,7 @@ typedef struct kiriBody {
     kiriVec3 momentum; /* N s */
     double mass;       /* kg */
     bool asleep;
-    bool isHeld; /* by a pin or by the host */
+    bool folds; /* its directors differ much: it may have layers */
 } kiriBody;
 
 /* A probe of one body and the nearest place on another. */
@@ -31,16 +31,15 @@ typedef struct kiriNear {
     double share[3];     /* barycentric coordinates in the triangle */
     kiriVec3 normal;     /* of the triangle; its sign follows from the order of corners in the rest plane */
     double height;       /* m: of the probe above the triangle, along the normal */
-    double kept;         /* m: the distance that they keep */
+    double kept;         /* m: the distance that they keep; 0: the probe is on the wrong side */
 } kiriNear;
 
 /* Two pieces near each other. */
 typedef struct kiriTouchingPair {
-    kiriFrame upper, lower; /* ids of bodies */
-    int32_t side;           /* 1: the upper body is on the side of the lower body's normals; -1: on the other side */
-    int32_t touches;        /* 1: they touch or are about to, so they wake and sleep together; else 0 */
-    int32_t bodies[2];      /* current tick only: indices of upper and lower */
-    kiriSpan nears;         /* current tick only: near places found */
+    kiriFrame ids[2]; /* of bodies */
+    int32_t side;     /* 1: one lies on the side of the normals of the one with the higher id; -1: on the other; 0: one folds */
+    int32_t touches;  /* 1: they touch or are about to, so they wake and sleep together; else 0 */
+    kiriSpan nears;   /* current tick only: near places found */
 } kiriTouchingPair;
 
 typedef KIRI_ARRAY(kiriTouchingPair) kiriTouchingPairs;
@@ -60,7 +59,7 @@ typedef struct kiriPairTouch {
     kiriVec3 velocity; /* m/s: of the lower place */
     double gap;        /* m: distance of the places along the normal */
     double distance;   /* m: that they keep */
-    bool isFold;       /* both places are of one piece */
+    bool isFold;       /* both places are of one piece, or have crossed */
     double rank;       /* m: the gap; less if they pushed in the last tick */
     int32_t touch; /* index in touches.found of the upper sheet, or KIRI_NONE */
 } kiriPairTouch;
