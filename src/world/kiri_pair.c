@@ -721,8 +721,8 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
 #define ALONG 0.3 /* minimum cosine between surfaces that lie on each other */
 #define SURE 4.0  /* of the distance that they keep: a probe farther away is on its own side, whichever the pair has */
 
-/* Returns the side of the normals of the body with the higher id on which the other one lies: as most places say, unless they
-   said otherwise in the last tick. 0: a body that folds has no side. */
+/* Returns the side of the normals of the body with the higher id on which the other one lies. It changes if places lie on
+   the other side by the distance that they keep, in the mean. 0: a body that folds has no side. */
 static int32_t SideOfPair(const kiriPairs* pairs, const kiriBody* one, const kiriBody* other, kiriSpan nears, double dt)
 {
     int32_t at;
@@ -930,9 +930,9 @@ static double LookAtCrossing(void* context, int32_t triangle)
                            2 + (uint64_t)triangle);
     touch.normal = kiriVec3_Normalize(out);
     touch.distance = isFold ? FoldDistance(sheet, &near, DistanceAtRest(sheet, &near), 0.0) : kept;
-    touch.velocity = PlaceVelocity(&touch.lower);
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
         TurnToAwake(tangle->body, tangle->other, &touch);
+        touch.velocity = PlaceVelocity(&touch.lower);
         tangle->ok = tangle->ok && kiriArray_Push(&tangle->world->memory, &tangle->world->pairs.touches, touch);
         /* Sorted by key, since a load builds other trees, which visit triangles in another order. */
         kiriPairTouch* touches = tangle->world->pairs.touches.data;
