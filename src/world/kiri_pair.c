@@ -681,7 +681,8 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
     KIRI_FROM_TO_WHILE(ok, i, span.first, span.first + span.count) {
         kiriNear none = { .body = body, .other = other, .vertex = probes->list.items.data[i], .triangle = KIRI_NONE };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, none.vertex);
-        if (!kiriBox_Meet(&box, &(kiriBox){ x, x }) || !(areAll || probes->isBorder.data[none.vertex])) {
+        bool isNeeded = areAll || probes->isBorder.data[none.vertex];
+        if (!kiriBox_Meet(&box, &(kiriBox){ x, x }) || !(isNeeded || limits)) {
             continue;
         }
         double own = isFold ? reach + dt * kiriVec3_Distance(probes->velocities.data[i], mean) : reach;
@@ -701,7 +702,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         if (isFold || search.layer.triangle != KIRI_NONE) {
             LimitRoom(&search, none.vertex, widest, kept, dt);
         }
-        KIRI_TIMES_WHILE(ok, k, 2) {
+        KIRI_TIMES_WHILE(ok && isNeeded, k, 2) {
             kiriNear* near = &search.found[k];
             if (near->triangle != KIRI_NONE && !b->folds) {
                 SetNormal(near, bodies);
@@ -729,7 +730,7 @@ static int32_t SideOfPair(const kiriPairs* pairs, const kiriBody* one, const kir
     uint64_t name = NameOf(one->id, other->id);
     KIRI_SEARCH(at, 0, pairs->pairs.count,
                 NameOf(pairs->pairs.data[middle].ids[0], pairs->pairs.data[middle].ids[1]) < name);
-    const kiriTouchingPair* old = &pairs->pairs.data[at];
+    const kiriTouchingPair* old = pairs->pairs.data + at;
     bool isOld = at < pairs->pairs.count && NameOf(old->ids[0], old->ids[1]) == name;
     const kiriBody* of = one->id > other->id ? one : other;
     double sum = isOld ? KeptDistance(one, other) * old->side * nears.count : 0.0;
@@ -933,11 +934,11 @@ static double LookAtCrossing(void* context, int32_t triangle)
     if (touch.distance > 0.0 && kiriVec3_Length(out) > LEAST_TURN) {
         TurnToAwake(tangle->body, tangle->other, &touch);
         touch.velocity = PlaceVelocity(&touch.lower);
-        tangle->ok = tangle->ok && kiriArray_Push(&tangle->world->memory, &tangle->world->pairs.touches, touch);
+        kiriPairs* pairs = &tangle->world->pairs;
+        tangle->ok = tangle->ok && kiriArray_Push(&tangle->world->memory, &pairs->touches, touch);
         /* Sorted by key, since a load builds other trees, which visit triangles in another order. */
-        kiriPairTouch* touches = tangle->world->pairs.touches.data;
-        int32_t last = tangle->world->pairs.touches.count - 1;
-        for (int32_t i = last; tangle->ok && i > tangle->first && touches[i - 1].key > touch.key; --i) {
+        kiriPairTouch* touches = pairs->touches.data;
+        for (int32_t i = pairs->touches.count - 1; tangle->ok && i > tangle->first && touches[i - 1].key > touch.key; --i) {
             touches[i] = touches[i - 1];
             touches[i - 1] = touch;
         }
@@ -995,12 +996,11 @@ static bool TouchNears(kiriWorld* world, kiriSpan nears, double dt, int32_t side
         double belongs = fabs(near->height) < SURE * near->kept ? sideOfPair * (body->id > other->id ? -ahead : 1.0) : 0.0;
         double side = (fabs(belongs) < ALONG ? near->height : belongs) >= 0.0 ? 1.0 : -1.0;
         bool isAhead = side * ahead < 0.0;
-        kiriPairTouch touch = { .upper = VertexPlace(body->sheet, near->vertex), .isFold = isFold };
+        kiriPairTouch touch = { .upper = VertexPlace(body->sheet, near->vertex), .isFold = isFold,
+                                .gap = side * near->height, .distance = near->kept };
         touch.lower = TrianglePlace(other->sheet, near->triangle, near->share);
         touch.key = KeyOfTouch(body->id, other->id, (uint64_t)near->vertex, isAhead);
         touch.normal = kiriVec3_Scale(side, near->normal);
-        touch.gap = side * near->height;
-        touch.distance = near->kept;
         TurnToAwake(body, other, &touch);
         double above = near->kept > 0.0 ? CompleteTouch(world, &touch, KeptDistance(body, other), dt) : HUGE_VAL;
         if (above < (1.0 + MARGIN) * touch.distance) {
